@@ -1,0 +1,1 @@
+"""Numerical core: meshes, distortions, energies, solvers. Knows no window and no drawing."""

@@ -1,0 +1,46 @@
+"""What changes while a solver runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Floats, frozen
+from workbench.core.status import Status
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """One iterate.
+
+    Parameters
+    ----------
+    positions : (n, d) float64    the current map
+    iteration : int
+    energy : float                sum of w D, plus penalties of soft anchors
+    gradient_norm : float         Euclidean norm over the free coordinates
+    step_size : float             of the step that led here, in (0, 1]; 0 where none was taken
+    inverted : int                simplices with det <= 0
+    anchor_error : float          largest distance of a hard anchor from its target
+    status : Status
+    previous_energy : float       energy before the last step, at the same anchors; NaN where there is none
+    limiting_simplex : int        simplex that bounded the last step, -1 where none did
+    memory : object               the solver's own
+    """
+
+    positions: Floats
+    iteration: int = 0
+    energy: float = float("nan")
+    gradient_norm: float = float("nan")
+    step_size: float = 0.0
+    inverted: int = 0
+    anchor_error: float = 0.0
+    status: Status = Status.RUNNING
+    previous_energy: float = float("nan")
+    limiting_simplex: int = -1
+    memory: Any = field(default=None, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "positions", frozen(self.positions, np.float64))

@@ -1,0 +1,235 @@
+"""Commands to the engine and its reports: all that crosses the process boundary."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.mesh import Mesh
+from workbench.core.status import Status
+
+# ---------------------------------------------------------------------------------------------- commands
+
+
+class Command:
+    """Something the window asks for. Of each class the newest wins, except `Step`, whose counts add up."""
+
+
+@dataclass(frozen=True)
+class Load(Command):
+    """Read a mesh and make it the source; the map becomes the start of the current choices.
+
+    `source` is a path, or `sample:ID`; `fixes` are applied in their order; `kind` is `auto` or a `Kind`;
+    `generation` is chosen by the sender and comes back in every report that belongs to this mesh.
+    """
+
+    source: str
+    generation: int
+    kind: str = "auto"
+    fixes: tuple[str, ...] = ()
+    tets: bool = False
+
+
+@dataclass(frozen=True)
+class SetProblem(Command):
+    """Distortion (id or formula) with its parameters; the current map is kept.
+
+    `fixed_boundary` holds the boundary vertices where they are now, beside the anchors.
+    """
+
+    distortion: str = "symmetric-dirichlet"
+    parameters: dict[str, float] = field(default_factory=dict)
+    fixed_boundary: bool = False
+    allow_inversions: bool = False
+
+
+@dataclass(frozen=True)
+class SetSolver(Command):
+    """Solver by id with its parameters; takes effect at the next step, the map is kept."""
+
+    solver: str = "projected-newton"
+    parameters: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class SetAnchors(Command):
+    """All anchors: `vertices` (k,), `targets` (k, d), `weights` (k,) (inf is hard).
+
+    `serial` is chosen by the sender (growing); `Snapshot.anchor_serial` tells which one a map has taken up.
+    `dragging` is true while a hand holds one of them.
+    """
+
+    vertices: Integers
+    targets: Floats
+    weights: Floats
+    serial: int = 0
+    dragging: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vertices", frozen(self.vertices, np.int64))
+        object.__setattr__(self, "targets", frozen(self.targets))
+        object.__setattr__(self, "weights", frozen(self.weights))
+
+
+@dataclass(frozen=True)
+class Run(Command):
+    """Iterate until a criterion of the solver stops it; later anchor moves start it again."""
+
+    iterations: int = 1000
+    tolerance: float = 1e-6
+    time_limit: float = float("inf")
+
+
+@dataclass(frozen=True)
+class Pause(Command):
+    """Stop iterating after the step that is under way (it is interrupted); anchors no longer pull."""
+
+
+@dataclass(frozen=True)
+class Step(Command):
+    """Take `count` iterations, then pause."""
+
+    count: int = 1
+
+
+@dataclass(frozen=True)
+class Reset(Command):
+    """Make the start anew: initializer by id with parameters, a file for `file`.
+
+    `match_area` scales the start to the total area (volume) of the source.
+    """
+
+    initializer: str = ""  # empty: the default of the kind of map
+    parameters: dict[str, Any] = field(default_factory=dict)
+    file: str = ""
+    match_area: bool = True
+
+
+@dataclass(frozen=True)
+class Quit(Command):
+    """End the engine process."""
+
+
+# ---------------------------------------------------------------------------------------------- reports
+
+
+class Report:
+    """Something the engine tells."""
+
+
+@dataclass(frozen=True)
+class Ready(Report):
+    """The process is up and its kernels are compiled; `seconds` from spawn."""
+
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Progress(Report):
+    """Long work: a sentence; `fraction` in [0, 1], or negative where it is not known."""
+
+    sentence: str
+    fraction: float = -1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded(Report):
+    """A mesh was read and is the source now.
+
+    `mesh` has two columns of vertices for `plane`; `lines` is the report on load, one sentence a line;
+    `cut_edges` (k, 2) are the edges (vertices of `mesh`) that a fix cut open.
+    """
+
+    generation: int
+    mesh: Mesh
+    kind: str
+    lines: tuple[str, ...]
+    cut_edges: Integers
+    source: str
+    fixes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Refused(Report):
+    """A command could not be carried out: the sentence says why; `fixes` are names to offer as buttons.
+
+    `lines` is the report on load where a mesh was read but does not suit; `command` is the class name.
+    """
+
+    generation: int
+    command: str
+    sentence: str
+    fixes: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Failure(Report):
+    """Something raised: a plugin or a fault of ours. The engine stays up; `traceback` is for the details."""
+
+    generation: int
+    sentence: str
+    traceback: str
+
+
+@dataclass(frozen=True)
+class Restarted(Report):
+    """The engine process died or was stopped, and a new one goes on from the last good map."""
+
+    sentence: str
+
+
+@dataclass(frozen=True)
+class HistoryRow:
+    """One line of the history file."""
+
+    iteration: int
+    seconds: float
+    energy: float
+    mean_distortion: float
+    gradient_norm: float
+    step_size: float
+    inverted: int
+    anchor_error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot(Report):
+    """What the window draws.
+
+    Parameters
+    ----------
+    generation : int          of the mesh
+    number : int              growing
+    positions : (n, d)        float64
+    phase : str               idle, running, dragging, finished
+    status : Status           `status.value` is the sentence; RUNNING while it runs
+    row : HistoryRow          seconds are those spent in steps since the last Reset
+    inverted : (m,) bool      det <= 0
+    fields : dict             display scalars by id, each (m,) float32; see `workbench.core.quality.LIVE_MEASURES`
+    histogram : (edges, counts)   of the average singular value (78)
+    anchor_serial : int       of the newest `SetAnchors` that this map has taken up
+    limiting_simplex : int    simplex that bounds the step while an anchor lags, else -1
+    seconds_published : float `time.perf_counter()` clock of the machine when it was published
+    timing : dict             seconds by part (assemble, factorise, solve, line_search) of the last step
+    """
+
+    generation: int
+    number: int
+    positions: Floats
+    phase: str
+    status: Status
+    row: HistoryRow
+    inverted: Booleans
+    fields: dict[str, Any]
+    histogram: tuple[Floats, Integers]
+    anchor_serial: int = 0
+    limiting_simplex: int = -1
+    seconds_published: float = 0.0
+    timing: dict[str, float] = field(default_factory=dict)
+    solver: str = ""
+    distortion: str = ""
+    rows: tuple[HistoryRow, ...] = ()  # every row since the snapshot before, oldest first
