@@ -1,0 +1,59 @@
+"""`--set NAME=VALUE`: which method each parameter belongs to."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from workbench.core.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.core.method import Method
+
+
+def add_set_option(parser: argparse.ArgumentParser, owners: str) -> None:
+    parser.add_argument(
+        "--set", dest="settings", metavar="NAME=VALUE", type=name_and_value, action="append", default=[],
+        help=f"a parameter of {owners}; may be given many times",
+    )  # fmt: skip
+
+
+def name_and_value(text: str) -> tuple[str, str]:
+    """`NAME=VALUE` taken apart; argparse's own error otherwise."""
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise argparse.ArgumentTypeError(f"{text!r} is not of the form NAME=VALUE")
+    return name.strip(), value.strip()
+
+
+def distortion_parameters(text: str) -> tuple[str, ...]:
+    """Names that can be set for a distortion: its declared parameters; for a typed formula also its free names."""
+    from workbench.core.distortion import Distortion
+    from workbench.core.formula import names_in_formula
+    from workbench.core.registry import registry
+
+    known = registry().distortions
+    if text in known:
+        return tuple(item.name for item in known[text].parameters)
+    borrowed = [item.name for item in Distortion.from_formula(text).parameters]
+    free = [name for name in names_in_formula(text) if name.replace("_", "-") not in known]
+    return tuple(dict.fromkeys([*borrowed, *free]))
+
+
+def assign(
+    settings: Iterable[tuple[str, str]], distortion: str, methods: Sequence[type[Method]] = ()
+) -> tuple[dict[str, str], ...]:
+    """Settings of the distortion, then of each of `methods`: a name goes to the first that has it.
+
+    Raises `WorkbenchError` for a name that none of them has, naming those that there are.
+    """
+    forms = [distortion_parameters(distortion), *(tuple(p.name for p in method.parameters()) for method in methods)]
+    chosen: tuple[dict[str, str], ...] = tuple({} for _ in forms)
+    for name, value in settings:
+        owner = next((i for i, form in enumerate(forms) if name in form), None)
+        if owner is None:
+            known = ", ".join(dict.fromkeys(item for form in forms for item in form)) or "none"
+            raise WorkbenchError(f"There is no parameter {name!r} to set; there are: {known}.")
+        chosen[owner][name] = value
+    return chosen
