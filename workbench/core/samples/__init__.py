@@ -1,0 +1,5 @@
+"""Meshes that the project makes itself: deterministic, at any resolution."""
+
+from workbench.core.samples.catalogue import SampleInfo, make_sample, sample_ids, sample_info
+
+__all__ = ["SampleInfo", "make_sample", "sample_ids", "sample_info"]

@@ -1,0 +1,108 @@
+"""A level set in space as well-shaped triangles: surface nets, then smoothing on the surface."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from workbench.core.arrays import Floats, Integers
+
+Implicit = Callable[[Floats], Floats]
+"""(k, 3) points -> (k,) values, negative inside, of slope about one near the surface."""
+
+_SMOOTHING_ROUNDS = 25
+
+
+def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: float) -> tuple[Floats, Integers]:
+    """The part of the level set 0 above the plane z = 0, for an `implicit` that is symmetric about that plane.
+
+    One vertex a grid cell that the surface crosses, one quadrilateral a grid edge that it
+    crosses (surface nets, Gibson 1998);
+    the lowest cells straddle z = 0, where their vertices are the boundary.
+    """
+    axes = [np.arange(low[axis], high[axis] + spacing, spacing) for axis in (0, 1)]
+    axes.append(np.arange(-0.5 * spacing, high[2] + spacing, spacing))
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    value = implicit(grid.reshape(-1, 3)).reshape(grid.shape[:3])
+    inside = value < 0
+    cells = np.array(inside.shape) - 1
+    corner_sum = sum(
+        inside[i : i + cells[0], j : j + cells[1], k : k + cells[2]].astype(np.int64)
+        for i in (0, 1)
+        for j in (0, 1)
+        for k in (0, 1)
+    )
+    crossed = (corner_sum > 0) & (corner_sum < 8)
+    index = np.full(crossed.shape, -1, dtype=np.int64)
+    index[crossed] = np.arange(crossed.sum())
+    vertices = np.stack(np.nonzero(crossed), axis=1) * spacing + [axis[0] + 0.5 * spacing for axis in axes]
+
+    quads = []
+    for axis in range(3):
+        one, two = (axis + 1) % 3, (axis + 2) % 3
+        before, after = [slice(None)] * 3, [slice(None)] * 3
+        before[axis], after[axis] = slice(0, -1), slice(1, None)
+        changes = inside[tuple(before)].astype(np.int64) - inside[tuple(after)]
+        place = np.stack(np.nonzero(changes), axis=1)
+        sign = changes[tuple(place.T)]
+        # the four cells round a grid edge; edges of the lowest layer have none below, and bound the surface
+        enough = (place[:, one] > 0) & (place[:, two] > 0)
+        place, sign = place[enough], sign[enough]
+        ring = []
+        for step_one, step_two in ((-1, -1), (0, -1), (0, 0), (-1, 0)):
+            cell = place.copy()
+            cell[:, one] += step_one
+            cell[:, two] += step_two
+            keep = (cell < cells).all(axis=1)
+            ring.append(np.where(keep, index[tuple(np.minimum(cell, cells - 1).T)], -1))
+        quad = np.stack(ring, axis=1)
+        quad[sign < 0] = quad[sign < 0][:, ::-1]
+        quads.append(quad[(quad >= 0).all(axis=1)])
+    quad = np.vstack(quads)
+    vertices = _relaxed(implicit, vertices, quad, spacing)
+    return vertices, _split(vertices, quad)
+
+
+def _relaxed(implicit: Implicit, vertices: Floats, quads: Integers, spacing: float) -> Floats:
+    """Vertices moved to the mean of their neighbours and back onto the surface; those on z = 0 stay on it."""
+    edges = np.vstack([quads[:, [i, (i + 1) % 4]] for i in range(4)])
+    edges = np.unique(np.sort(edges, axis=1), axis=0)
+    count = np.bincount(edges.ravel(), minlength=len(vertices))
+    rim = vertices[:, 2] < 0.25 * spacing
+    rim_edges = edges[rim[edges].all(axis=1)]
+    rim_count = np.maximum(np.bincount(rim_edges.ravel(), minlength=len(vertices)), 1)
+    vertices = _project(implicit, vertices, rim)
+    for _ in range(_SMOOTHING_ROUNDS):
+        mean = _neighbour_sum(vertices, edges) / count[:, None]
+        rim_mean = _neighbour_sum(vertices, rim_edges) / rim_count[:, None]
+        vertices = 0.4 * vertices + 0.6 * np.where(rim[:, None], rim_mean, mean)
+        vertices = _project(implicit, vertices, rim)
+    return vertices
+
+
+def _neighbour_sum(vertices: Floats, edges: Integers) -> Floats:
+    total = np.empty_like(vertices)
+    for axis in range(3):
+        total[:, axis] = np.bincount(edges[:, 0], vertices[edges[:, 1], axis], len(vertices))
+        total[:, axis] += np.bincount(edges[:, 1], vertices[edges[:, 0], axis], len(vertices))
+    return total
+
+
+def _project(implicit: Implicit, points: Floats, rim: np.ndarray) -> Floats:
+    step = 1e-5
+    points[rim, 2] = 0.0
+    moves = np.vstack([np.zeros((1, 3)), step * np.eye(3)])
+    value = implicit((points[None] + moves[:, None]).reshape(-1, 3)).reshape(4, -1)
+    gradient = (value[1:] - value[0]).T / step
+    points = points - (value[0] / np.sum(gradient**2, axis=1))[:, None] * gradient
+    points[rim, 2] = 0.0
+    return points
+
+
+def _split(vertices: Floats, quads: Integers) -> Integers:
+    """Each quadrilateral into two triangles along its shorter diagonal."""
+    one = np.linalg.norm(vertices[quads[:, 0]] - vertices[quads[:, 2]], axis=1)
+    two = np.linalg.norm(vertices[quads[:, 1]] - vertices[quads[:, 3]], axis=1)
+    first = np.where((one <= two)[:, None, None], quads[:, [[0, 1, 2], [0, 2, 3]]], quads[:, [[0, 1, 3], [1, 2, 3]]])
+    return np.ascontiguousarray(first.reshape(-1, 3))
