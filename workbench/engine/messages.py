@@ -140,7 +140,8 @@ class Loaded(Report):
     """A mesh was read and is the source now.
 
     `mesh` has two columns of vertices for `plane`; `lines` is the report on load, one sentence a line;
-    `cut_edges` (k, 2) are the edges (vertices of `mesh`) that a fix cut open.
+    `cut_edges` (k, 2) are the edges (vertices of `mesh`) that a fix cut open. `anchor_vertices` (k,) are those that
+    the file or the sample comes with, `anchor_targets` (k, d) their targets; None: where the start has them.
     """
 
     generation: int
@@ -150,6 +151,8 @@ class Loaded(Report):
     cut_edges: Integers
     source: str
     fixes: tuple[str, ...] = ()
+    anchor_vertices: Integers | None = None
+    anchor_targets: Floats | None = None
 
 
 @dataclass(frozen=True)
