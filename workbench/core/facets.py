@@ -15,7 +15,8 @@ from workbench.core.arrays import Booleans, Integers
 class FacetTable:
     """Every side of every simplex, sorted so that sides on the same facet can be found.
 
-    A side is one facet seen from one simplex; h = m (n+1) of them. Side `s (n+1) + i` of simplex s lies opposite its corner i.
+    A side is one facet seen from one simplex; h = m (n+1) of them. Side `s (n+1) + i` of simplex s lies opposite its
+    corner i.
 
     Attributes
     ----------
@@ -88,7 +89,7 @@ def facet_table(simplices: Integers) -> FacetTable:
 
 
 def simplex_components(table: FacetTable, simplex_count: int) -> tuple[int, Integers]:
-    """Number of face-connected components and the label of each simplex, (m,) int64, numbered by their first simplex."""
+    """Number of face-connected components and the label of each simplex, (m,) int64."""
     count, labels = _components(simplex_count, table.pair_simplices)
     return count, labels
 

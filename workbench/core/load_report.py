@@ -88,7 +88,8 @@ def _orientation_line(mesh: Mesh) -> str:
             return "Consistently oriented, every tetrahedron positively."
         if negative == mesh.simplex_count:
             return "Every tetrahedron is negatively oriented; volumes are taken without their sign."
-        return f"{_list_line(topology.negative, noun, 'negatively oriented')[:-1]}; volumes are taken without their sign."
+        turned = _list_line(topology.negative, noun, "negatively oriented")[:-1]
+        return f"{turned}; volumes are taken without their sign."
     if not topology.is_orientable:
         return "Not orientable (one-sided)."
     if not topology.is_consistently_oriented:

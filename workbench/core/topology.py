@@ -24,13 +24,13 @@ class Topology:
     dimension : int                          2 triangles, 3 tetrahedra
     vertex_count, simplex_count : int
     edge_count : int                         0 for tetrahedra (not needed)
-    component_count : int                    face-connected: parts that only touch in a vertex (or an edge of tets) are two
+    component_count : int                    face-connected: parts that only touch in a vertex are two
     components : (m,) int64                  component of each simplex
     boundary_facets : (b, dimension) int64   oriented as the simplices
     boundary_vertices : (k,) int64           ascending
-    boundary_loops : tuple of (k,) int64     ordered vertices, oriented as the simplices; the longest first; triangles only
+    boundary_loops : tuple of (k,) int64     ordered, oriented as the simplices, the longest first; triangles only
     euler_characteristic : int               of the vertices that are used
-    genus : int or None                      sum over the components; None where it is not an orientable manifold, and for tets
+    genus : int or None                      sum over the components; None unless an orientable manifold of triangles
     is_orientable : bool
     is_consistently_oriented : bool          neighbours agree
     nonmanifold_facets : (k, dimension) int64   in more than two simplices
@@ -131,7 +131,7 @@ def analyse_topology(mesh: Mesh) -> Topology:
 
 
 def signed_contents(vertices: Floats, simplices: Integers) -> Floats:
-    """n! times the signed area or volume of each simplex, (m,) float64; triangles in space have no sign: theirs is >= 0."""
+    """n! times the signed area or volume of each simplex, (m,) float64; for triangles in space without sign."""
     edges = vertices[simplices[:, 1:]] - vertices[simplices[:, :1]]
     if simplices.shape[1] == 4:
         return np.einsum("ij,ij->i", np.cross(edges[:, 0], edges[:, 1]), edges[:, 2])
