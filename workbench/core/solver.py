@@ -1,14 +1,18 @@
-"""What a solver is, the criteria that stop all of them alike, and the only plain loop."""
+"""What a solver is, and the criteria that stop all of them alike."""
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.method import Method
-from workbench.core.state import State
+from workbench.core.state import Approach, State
 from workbench.core.status import Status
 
 if TYPE_CHECKING:
@@ -16,6 +20,9 @@ if TYPE_CHECKING:
 
 Interrupt = Callable[[], bool]
 """Asked between line-search trials and factorisations: true when the step shall return the old positions."""
+
+ROUNDING = 1e-13
+"""A decrease below this part of the energy cannot be told from rounding."""
 
 
 def never() -> bool:
@@ -26,9 +33,75 @@ def never() -> bool:
 class Solver(Method, ABC):
     """A value machine: `init -> step -> step ...`; subclasses are frozen dataclasses, fields are the parameters."""
 
-    monotone = True
+    monotone: ClassVar[bool] = True
     """Whether the energy never rises in a step once the anchors are in place."""
+
+    def init(self, problem: Problem, positions: Floats) -> State:
+        """The first state; INVERTED_START or NONFINITE where the energy is not finite there."""
+        x = np.ascontiguousarray(positions, dtype=np.float64)
+        if x.shape != (problem.mesh.vertex_count, problem.dimension) or not np.isfinite(x).all():
+            return State(x, status=Status.NONFINITE)
+        state = self.rebase(problem, State(x))
+        if state.inverted and problem.density.has_barrier:
+            return replace(state, status=Status.INVERTED_START)
+        if not math.isfinite(state.energy):
+            return replace(state, status=Status.NONFINITE)
+        return state
 
     @abstractmethod
     def step(self, problem: Problem, state: State, interrupt: Interrupt = never) -> State:
-        """One accepted iterate of (62). Changes none of its inputs."""
+        """One accepted iterate of (62). Changes none of its inputs.
+
+        While `problem.anchors_lag(state.positions)`, call `approach_anchors` (or lessen |A x - b| in another way).
+        """
+
+    def terminate(self, problem: Problem, state: State) -> Status:
+        """The status after a step, by the criteria that all solvers share."""
+        if state.status is not Status.RUNNING:
+            return state.status
+        if not math.isfinite(state.energy):
+            return Status.NONFINITE
+        if problem.anchors_lag(state.positions):
+            return Status.RUNNING
+        criteria = problem.criteria
+        if math.isfinite(state.previous_energy):
+            decrease = state.previous_energy - state.energy
+            # An energy whose minimum is 0 never decreases by a small part of itself: 1e-14 a unit of area is the floor.
+            floor = 1e-14 * problem.total_measure
+            if 0.0 <= decrease <= max(criteria.tolerance * abs(state.energy), floor):
+                return Status.CONVERGED
+        if criteria.gradient_tolerance is not None:
+            if state.gradient_norm <= criteria.gradient_tolerance * characteristic_gradient(problem):
+                return Status.CONVERGED
+        return Status.RUNNING
+
+    def rebase(self, problem: Problem, state: State) -> State:
+        """Anchors, distortion or parameters moved: the same map under the new problem; the solver's memory is dropped."""
+        evaluation = problem.evaluate(state.positions, 1)
+        return replace(
+            state,
+            energy=evaluation.energy,
+            gradient_norm=problem.free_gradient_norm(evaluation.gradient),
+            inverted=evaluation.inverted,
+            anchor_error=problem.anchor_error(state.positions),
+            previous_energy=float("nan"),
+            status=Status.RUNNING,
+            memory=None,
+            approach=Approach(),
+        )
+
+
+def characteristic_gradient(problem: Problem) -> float:
+    """Scale of the gradient norm, so that a tolerance means the same on every mesh (Zhu et al. 2018, section 5).
+
+    The norm of the D_i at the identity (that of symmetric Dirichlet's pieces where D is flat there) times the norm of the
+    areas of the boundaries of the vertex stars.
+    """
+    elements = problem.elements
+    n = elements.dimension
+    faces = np.linalg.norm(elements.hat_gradients, axis=2) * elements.rest_measures[:, None]
+    star = np.zeros(elements.vertex_count)
+    np.add.at(star, elements.simplices.reshape(-1), faces.reshape(-1))
+    sigma = np.full((1, n), 1.1)
+    density = float(np.linalg.norm(problem.distortion.gradient(sigma)))
+    return max(density, 1e-30) * float(np.linalg.norm(star))

@@ -11,6 +11,19 @@ from workbench.core.arrays import Floats, frozen
 from workbench.core.status import Status
 
 
+@dataclass(frozen=True)
+class Approach:
+    """How the walk towards moved anchors goes (see `workbench.core.anchor_steps`).
+
+    `refresh` : the last factor has grown poor;  `hold` : hold the anchors and relax first;
+    `stuck` : steps in a row that brought the anchors no nearer
+    """
+
+    refresh: bool = False
+    hold: bool = False
+    stuck: int = 0
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """One iterate.
@@ -28,6 +41,7 @@ class State:
     previous_energy : float       energy before the last step, at the same anchors; NaN where there is none
     limiting_simplex : int        simplex that bounded the last step, -1 where none did
     memory : object               the solver's own
+    approach : Approach           of anchors that lag
     """
 
     positions: Floats
@@ -41,6 +55,7 @@ class State:
     previous_energy: float = float("nan")
     limiting_simplex: int = -1
     memory: Any = field(default=None, repr=False)
+    approach: Approach = Approach()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "positions", frozen(self.positions, np.float64))

@@ -9,6 +9,7 @@ import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.mesh import Mesh
+from workbench.core.run import HistoryRow
 from workbench.core.status import Status
 
 # ---------------------------------------------------------------------------------------------- commands
@@ -183,20 +184,6 @@ class Restarted(Report):
     """The engine process died or was stopped, and a new one goes on from the last good map."""
 
     sentence: str
-
-
-@dataclass(frozen=True)
-class HistoryRow:
-    """One line of the history file."""
-
-    iteration: int
-    seconds: float
-    energy: float
-    mean_distortion: float
-    gradient_norm: float
-    step_size: float
-    inverted: int
-    anchor_error: float
 
 
 @dataclass(frozen=True, eq=False)

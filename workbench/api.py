@@ -1,0 +1,88 @@
+"""All that a plugin may import, and what a notebook imports."""
+
+from __future__ import annotations
+
+from workbench.core.anchor_steps import approach_anchors
+from workbench.core.arrays import Floats, Integers
+from workbench.core.constraints import Anchors, LinearConstraints
+from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
+from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
+from workbench.core.disc_boundary import BoundaryShape, convex_outline, disc_boundary
+from workbench.core.distortion import Distortion
+from workbench.core.energy import Evaluation
+from workbench.core.errors import FormulaError, MeshError, WorkbenchError
+from workbench.core.initializer import Initializer, StartRequest
+from workbench.core.line_search import SAFETY, armijo, largest_step, largest_step_without_inversion
+from workbench.core.linear_maps import (
+    conformal_energy,
+    dirichlet_matrix,
+    harmonic_extension,
+    match_source_frame,
+    signed_areas,
+    upright,
+)
+from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.mesh import Mesh
+from workbench.core.method import Kind, Parameter, parameter
+from workbench.core.problem import Problem
+from workbench.core.run import RunResult, run
+from workbench.core.solver import ROUNDING, Interrupt, Solver, never
+from workbench.core.state import State
+from workbench.core.status import Status
+
+
+def map_from_file(path: str, mesh: Mesh, kind: Kind) -> Floats:
+    """The map (n, d) that a file holds for the vertices of `mesh`. Raises `MeshError` where it does not fit."""
+    from workbench.io.opening import map_from_file as read_map
+
+    return read_map(path, mesh, kind)
+
+
+__all__ = [
+    "ROUNDING",
+    "SAFETY",
+    "Anchors",
+    "BoundaryShape",
+    "DefiniteFactor",
+    "Distortion",
+    "Evaluation",
+    "Floats",
+    "FormulaError",
+    "Initializer",
+    "Integers",
+    "Interrupt",
+    "Kind",
+    "LinearConstraints",
+    "Mesh",
+    "MeshError",
+    "Parameter",
+    "Problem",
+    "RunResult",
+    "SingularMatrixError",
+    "Solver",
+    "StartRequest",
+    "State",
+    "Status",
+    "WorkbenchError",
+    "approach_anchors",
+    "armijo",
+    "conformal_energy",
+    "convex_outline",
+    "cotangent_weights",
+    "dirichlet_matrix",
+    "disc_boundary",
+    "harmonic_extension",
+    "laplacian",
+    "largest_step",
+    "largest_step_without_inversion",
+    "map_disc",
+    "map_from_file",
+    "match_source_frame",
+    "never",
+    "parameter",
+    "run",
+    "signed_areas",
+    "solve_with_fixed",
+    "uniform_weights",
+    "upright",
+]

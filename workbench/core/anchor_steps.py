@@ -1,0 +1,207 @@
+"""Steps while anchors lag behind their targets: predict with the last factor, correct, never invert.
+
+(65) with the right-hand side b - A x: the free vertices move with the anchors. One solve with the last factor gives the next
+map, so that a picture does not wait for a factorisation; a fresh one is made when the prediction has grown poor.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.anchor_motion import anchor_groups, next_displacement
+from workbench.core.arrays import Floats
+from workbench.core.line_search import SAFETY, armijo, largest_step
+from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.state import Approach, State
+from workbench.core.status import Status
+
+if TYPE_CHECKING:
+    from workbench.core.problem import Problem
+
+BOUNDARY_PART = 0.6
+"""Part of the largest step without inversion that anchors may push: what is left lets the next correction push back."""
+POOR_CONTRACTION = 0.7
+"""A prediction that leaves more than this part of the force is poor."""
+PATIENCE = 40
+"""Steps without progress, each after a relaxation, before the run counts as stalled."""
+CHEAP_FACTORISATION = 0.020
+"""Seconds; a factorisation below this is made whenever it helps."""
+DUTY = 0.05
+"""Part of the time that dearer factorisations may take while a hand moves."""
+
+
+def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], bool], *, eager: bool = True) -> State:
+    """One step towards A x = b under the step bound.
+
+    `eager` makes a fresh factor whenever the last one is poor; otherwise (a hand is moving) dear ones are rationed.
+    Returns the old positions with status INTERRUPTED when `interrupt` says so; STALLED, SINGULAR or NONFINITE on failure.
+    """
+    x = state.positions
+    hard = problem.anchors.hard_vertices
+    system = problem.system
+    approach = state.approach
+    fresh = not system.serves(hard) or (approach.refresh and (eager or _affordable(problem)))
+    if fresh:
+        evaluation = problem.evaluate(x, 2)
+        if not math.isfinite(evaluation.energy):
+            return replace(state, status=Status.NONFINITE)
+        if interrupt():
+            return replace(state, status=Status.INTERRUPTED)
+        assert evaluation.hessian_values is not None
+        try:
+            system.factorise(evaluation.hessian_values, hard)
+        except SingularMatrixError:
+            return replace(state, status=Status.SINGULAR)
+        system.factorised_at = time.perf_counter_ns()
+    else:
+        evaluation = problem.evaluate(x, 1)
+    if interrupt():
+        return replace(state, status=Status.INTERRUPTED)
+
+    if approach.hold:
+        return _relax(problem, state, evaluation.energy, evaluation.gradient, interrupt)
+
+    displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
+    residual = problem.constraints.residual(x) if problem.constraints is not None else None
+    try:
+        direction = system.solve(evaluation.gradient, displacement, problem.constraints, residual)
+    except SingularMatrixError:
+        return replace(state, status=Status.SINGULAR)
+    if not np.isfinite(direction).all():
+        system.forget()
+        return replace(state, status=Status.SINGULAR)
+    with problem.workspace.timed("line_search"):
+        return _push(problem, state, evaluation.energy, evaluation.gradient, direction, fresh, interrupt)
+
+
+def _push(
+    problem: Problem,
+    state: State,
+    energy: float,
+    gradient: Floats,
+    direction: Floats,
+    fresh: bool,
+    interrupt: Callable[[], bool],
+) -> State:
+    x = state.positions
+    hard = problem.anchors.hard_vertices
+    size, limiting = 1.0, -1
+    if problem.forbids_inversions:
+        bound, simplex = largest_step(x, direction, problem.elements.simplices)
+        if BOUNDARY_PART * bound < 1.0:
+            size, limiting = BOUNDARY_PART * bound, simplex
+    clean = state.inverted == 0 and problem.forbids_inversions
+    slope = float(np.einsum("ij,ij->", gradient, direction))
+    # The rise that dragging costs by the quadratic model; a step that rises far more has left the model's range.
+    rise = max(slope, 0.0) + 0.5 * _quadratic(problem, direction)
+    for _ in range(12):
+        if interrupt():
+            return replace(state, status=Status.INTERRUPTED)
+        candidate = x + size * direction
+        if size == 1.0:
+            _place_exactly(problem, x, direction, candidate)
+        value, inverted = problem.energy_and_inverted(candidate)
+        allowed = energy + max(4.0 * size * rise, 0.02 * abs(energy))
+        if math.isfinite(value) and not (clean and inverted) and value <= allowed:
+            break
+        size *= 0.5
+    else:
+        size, candidate, value, inverted = 0.0, x, energy, state.inverted
+    error = problem.anchor_error(candidate)
+    progress = state.anchor_error - error
+    stuck = 0 if progress > 1e-3 * state.anchor_error else state.approach.stuck + 1
+    if stuck > PATIENCE:
+        return replace(state, status=Status.STALLED, limiting_simplex=limiting)
+    poor = size < 0.5
+    gradient_norm = state.gradient_norm
+    if size > 0.0 and not poor:
+        after = problem.evaluate(candidate, 1)
+        gradient_norm = problem.free_gradient_norm(after.gradient)
+        force = problem.free_gradient_norm(gradient + problem.system.force(direction, hard))
+        poor = gradient_norm > POOR_CONTRACTION * force
+    return replace(
+        state,
+        positions=candidate,
+        iteration=state.iteration + 1,
+        energy=value,
+        gradient_norm=gradient_norm,
+        step_size=size,
+        inverted=inverted,
+        anchor_error=error,
+        status=Status.RUNNING,
+        previous_energy=float("nan"),
+        limiting_simplex=limiting,
+        memory=None,
+        approach=Approach(refresh=poor, hold=size < 0.1, stuck=stuck),
+    )
+
+
+def _relax(
+    problem: Problem, state: State, energy: float, gradient: Floats, interrupt: Callable[[], bool]
+) -> State:
+    """A Newton step with the anchors held where they are: it makes room for the next push."""
+    x = state.positions
+    direction = problem.system.solve(gradient)
+    slope = float(np.einsum("ij,ij->", gradient, direction))
+    first = 1.0
+    if problem.forbids_inversions:
+        first = min(1.0, SAFETY * largest_step(x, direction, problem.elements.simplices)[0])
+    with problem.workspace.timed("line_search"):
+        found = armijo(problem.energy_and_inverted, x, direction, energy, slope, first, interrupt)
+    if found.interrupted:
+        return replace(state, status=Status.INTERRUPTED)
+    relaxed = found.size == 0.0 or energy - found.energy <= 1e-3 * abs(energy)
+    return replace(
+        state,
+        positions=found.positions,
+        iteration=state.iteration + 1,
+        energy=found.energy,
+        gradient_norm=problem.free_gradient_norm(gradient),
+        step_size=found.size,
+        anchor_error=problem.anchor_error(found.positions),
+        status=Status.RUNNING,
+        previous_energy=float("nan"),
+        memory=None,
+        approach=replace(state.approach, refresh=True, hold=not relaxed),
+    )
+
+
+def _quadratic(problem: Problem, direction: Floats) -> float:
+    """d^T H d with the Hessian of the last factor."""
+    system = problem.system
+    values = system.hessian_values
+    vector = system.pattern.to_matrix_order(direction)
+    return max(0.0, float(vector @ system.pattern.multiply(values, vector)))
+
+
+def _place_exactly(problem: Problem, x: Floats, direction: Floats, candidate: Floats) -> None:
+    """Put anchors that arrive on their targets to the last bit."""
+    hard, targets = problem.anchors.hard_vertices, problem.anchors.hard_targets
+    arrives = np.abs(candidate[hard] - targets).max(axis=1, initial=0.0) <= 1e-6 * problem.anchor_tolerance + 1e-12 * (
+        np.abs(targets).max(initial=0.0)
+    )
+    candidate[hard[arrives]] = targets[arrives]
+
+
+def _groups(problem: Problem) -> list[np.ndarray]:
+    hard = problem.anchors.hard_vertices
+    key = hard.tobytes()
+    cached = problem.workspace.groups
+    if cached is None or cached[0] != key:
+        cached = (key, anchor_groups(problem.elements.simplices, hard))
+        problem.workspace.groups = cached
+    return cached[1]
+
+
+def _affordable(problem: Problem) -> bool:
+    """Whether a fresh factor now keeps the pictures coming."""
+    system = problem.system
+    cost = system.last_factorisation_seconds
+    since = (time.perf_counter_ns() - system.factorised_at) * 1e-9
+    return cost <= CHEAP_FACTORISATION or since * DUTY >= cost

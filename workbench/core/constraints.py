@@ -1,0 +1,125 @@
+"""Anchors (55) and linear constraints (58)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.errors import WorkbenchError
+
+
+@dataclass(frozen=True, eq=False)
+class Anchors:
+    """Vertices that are held at targets.
+
+    Parameters
+    ----------
+    vertices : (k,) int64      each at most once
+    targets : (k, d) float64
+    weights : (k,) float64     inf is hard (the default), finite is the penalty weight |x - target|^2
+    """
+
+    vertices: Integers
+    targets: Floats
+    weights: Floats | None = None
+
+    def __post_init__(self) -> None:
+        vertices = frozen(np.asarray(self.vertices).reshape(-1), np.int64)
+        weights = np.full(len(vertices), np.inf) if self.weights is None else np.asarray(self.weights)
+        object.__setattr__(self, "vertices", vertices)
+        object.__setattr__(self, "targets", frozen(self.targets))
+        object.__setattr__(self, "weights", frozen(weights.reshape(-1)))
+        targets = self.targets
+        if targets.ndim != 2 or len(targets) != len(vertices) or len(self.weights) != len(vertices):  # type: ignore[arg-type]
+            raise WorkbenchError(f"Anchors: {len(vertices)} vertices, targets of shape {targets.shape}; one row a vertex is needed.")
+        if not np.isfinite(targets).all():
+            raise WorkbenchError("Anchors: a target is not a finite number.")
+        if len(np.unique(vertices)) != len(vertices):
+            raise WorkbenchError("Anchors: a vertex is named twice.")
+        if (self.weights < 0).any() or np.isnan(self.weights).any():  # type: ignore[operator]
+            raise WorkbenchError("Anchors: weights are positive numbers, inf for hard anchors.")
+
+    @staticmethod
+    def none(dimension: int) -> Anchors:
+        """No anchors."""
+        return Anchors(np.empty(0, dtype=np.int64), np.empty((0, dimension)))
+
+    def check(self, vertex_count: int, dimension: int) -> None:
+        """Raises `WorkbenchError` where they do not fit a map of `vertex_count` vertices in `dimension` columns."""
+        if len(self.vertices) and (self.vertices.min() < 0 or self.vertices.max() >= vertex_count):
+            bad = self.vertices[(self.vertices < 0) | (self.vertices >= vertex_count)][0]
+            raise WorkbenchError(f"Anchors: vertex {bad} does not exist; the mesh has vertices 0 to {vertex_count - 1}.")
+        if self.targets.shape[1] != dimension:
+            raise WorkbenchError(f"Anchors: targets have {self.targets.shape[1]} coordinates, the map has {dimension}.")
+
+    @cached_property
+    def _hard(self) -> Booleans:
+        return np.isinf(np.asarray(self.weights))
+
+    @cached_property
+    def hard_vertices(self) -> Integers:
+        return frozen(self.vertices[self._hard], np.int64)
+
+    @cached_property
+    def hard_targets(self) -> Floats:
+        return frozen(self.targets[self._hard])
+
+    @cached_property
+    def soft(self) -> tuple[Integers, Floats, Floats]:
+        """Vertices, targets and weights of the soft ones."""
+        chosen = ~self._hard & (np.asarray(self.weights) > 0)
+        return self.vertices[chosen], self.targets[chosen], np.asarray(self.weights)[chosen]
+
+    def error(self, positions: Floats) -> float:
+        """Largest distance of a hard anchor from its target, 0 without any."""
+        if not len(self.hard_vertices):
+            return 0.0
+        return float(np.linalg.norm(positions[self.hard_vertices] - self.hard_targets, axis=1).max())
+
+    def with_added(self, vertices: Integers, targets: Floats) -> Anchors:
+        """These and further hard ones; a vertex that is an anchor already keeps its target."""
+        new = ~np.isin(vertices, self.vertices)
+        return Anchors(
+            np.concatenate([self.vertices, vertices[new]]),
+            np.concatenate([self.targets, targets[new]]),
+            np.concatenate([np.asarray(self.weights), np.full(int(new.sum()), np.inf)]),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class LinearConstraints:
+    """A x = b on the coordinates, vertex by vertex.
+
+    Parameters
+    ----------
+    matrix : (p, n d) sparse or dense     rows independent of each other and of the hard anchors
+    values : (p,) float64
+    """
+
+    matrix: sparse.csr_matrix
+    values: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "matrix", sparse.csr_matrix(self.matrix, dtype=np.float64))
+        object.__setattr__(self, "values", frozen(np.asarray(self.values).reshape(-1)))
+        if self.matrix.shape[0] != len(self.values):
+            raise WorkbenchError(f"Linear constraints: {self.matrix.shape[0]} rows, {len(self.values)} values.")
+
+    def residual(self, positions: Floats) -> Floats:
+        """b - A x, (p,)."""
+        result: Floats = self.values - self.matrix @ positions.reshape(-1)
+        return result
+
+    def tangential(self, direction: Floats, held: Integers) -> Floats:
+        """The part of `direction` (n, d) that keeps A x, with the vertices `held` not moving at all."""
+        d = direction.shape[1]
+        rows = self.matrix.toarray()
+        rows[:, (held[:, None] * d + np.arange(d)).reshape(-1)] = 0.0
+        flat = direction.reshape(-1)
+        multipliers = np.linalg.lstsq(rows @ rows.T, rows @ flat, rcond=None)[0]
+        result: Floats = (flat - rows.T @ multipliers).reshape(direction.shape)
+        return result

@@ -1,0 +1,113 @@
+"""Solve one symmetric positive definite sparse system: what a linear initializer needs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
+
+from workbench.core.arrays import Floats
+from workbench.core.errors import WorkbenchError
+
+_REFINEMENTS = 2
+
+
+class DefiniteFactor:
+    """Cholesky factor of a symmetric positive definite matrix (CHOLMOD with minimum degree; SuperLU where cvxopt is missing).
+
+    The matrix is scaled to a unit diagonal first, and every solution is refined, so that rows of very different size do no harm.
+
+    Parameters
+    ----------
+    matrix : (N, N) sparse     symmetric; both triangles given
+
+    Raises `WorkbenchError` where the matrix is not positive definite to working precision.
+    """
+
+    def __init__(self, matrix: Any) -> None:
+        matrix = sparse.csc_matrix(matrix)
+        diagonal = matrix.diagonal()
+        if not (diagonal > 0).all():
+            raise WorkbenchError(_SINGULAR)
+        self._scale = 1.0 / np.sqrt(diagonal)
+        scaling = sparse.diags(self._scale)
+        self._matrix = sparse.csc_matrix(scaling @ matrix @ scaling)
+        try:
+            import cvxopt.cholmod
+        except ImportError:
+            self._factorise_superlu()
+        else:
+            self._factorise_cholmod(cvxopt)
+
+    def _factorise_cholmod(self, cvxopt: Any) -> None:
+        lower = sparse.tril(self._matrix, format="coo")
+        rows, columns = (cvxopt.matrix(np.ascontiguousarray(part, dtype=np.int64)) for part in (lower.row, lower.col))
+        values = cvxopt.matrix(np.ascontiguousarray(lower.data))
+        matrix = cvxopt.spmatrix(values, rows, columns, self._matrix.shape)
+        factor = cvxopt.cholmod.symbolic(matrix)
+        try:
+            cvxopt.cholmod.numeric(matrix, factor)
+        except ArithmeticError:
+            raise WorkbenchError(_SINGULAR) from None
+
+        def solve(rhs: Floats) -> Floats:
+            unknown = cvxopt.matrix(np.asfortranarray(rhs))
+            cvxopt.cholmod.solve(factor, unknown)
+            return np.array(unknown).reshape(rhs.shape)
+
+        self._solve = solve
+
+    def _factorise_superlu(self) -> None:
+        try:
+            factor = linalg.splu(
+                self._matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+            )
+        except RuntimeError:
+            raise WorkbenchError(_SINGULAR) from None
+        self._solve = factor.solve
+
+    def solve(self, rhs: Floats) -> Floats:
+        """(N, k) right-hand sides -> (N, k). Raises `WorkbenchError` where the result is not finite."""
+        scaled = rhs * self._scale[:, None]
+        unknown = self._solve(scaled)
+        for _ in range(_REFINEMENTS):
+            unknown = unknown + self._solve(scaled - self._matrix @ unknown)
+        if not np.isfinite(unknown).all():
+            raise WorkbenchError(_SINGULAR)
+        result: Floats = unknown * self._scale[:, None]
+        return result
+
+
+def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats) -> Floats:
+    """Minimiser of x^T M x with some rows of x given.
+
+    Parameters
+    ----------
+    matrix : (N, N) sparse        symmetric, positive definite on the free rows
+    fixed : (k,) int64            rows that are given
+    values : (k, c) float64       their values
+
+    Returns
+    -------
+    (N, c) float64
+    """
+    matrix = sparse.csr_matrix(matrix)
+    is_free = np.ones(matrix.shape[0], dtype=bool)
+    is_free[fixed] = False
+    free = np.flatnonzero(is_free)
+    result = np.zeros((matrix.shape[0], values.shape[1]))
+    result[fixed] = values
+    if len(free):
+        # Values near zero keep more digits: what all have in common is taken out first.
+        centre = values.mean(axis=0) if np.allclose(matrix @ np.ones(matrix.shape[0]), 0.0, atol=1e-9) else 0.0
+        rows = matrix[free]
+        result[free] = DefiniteFactor(rows[:, free]).solve(-(rows[:, fixed] @ (values - centre))) + centre
+    return result
+
+
+_SINGULAR = (
+    "The linear system of this start is singular; the mesh may have degenerate triangles or loose parts: remove them, "
+    "or choose another start."
+)

@@ -1,0 +1,180 @@
+"""Distortions: functions of singular values, given by one line of text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.errors import FormulaError, WorkbenchError
+from workbench.core.formula import CompiledFormula, compile_formula, names_in_formula
+from workbench.core.method import KINDS, Kind, Parameter
+
+
+@dataclass(frozen=True)
+class Distortion:
+    """A density D(sigma) on the singular values of the Jacobian of one simplex.
+
+    Parameters
+    ----------
+    id : str               name in lists and files; the text itself for a typed formula
+    label : str            long name
+    formula : str          see `workbench.core.formula`
+    parameters : tuple of Parameter
+    values : dict          parameter values that differ from the defaults
+    barrier : bool | None  whether D counts as +inf on det <= 0; None: decided from the formula at sigma_n = 0
+    citation, short : str  source with its equation; short name
+    description : str      what it is good for, for tool tips
+    """
+
+    id: str
+    label: str
+    formula: str
+    parameters: tuple[Parameter, ...] = ()
+    values: Mapping[str, float] = field(default_factory=dict)
+    barrier: bool | None = None
+    citation: str = ""
+    short: str = ""
+    description: str = ""
+    kinds: tuple[Kind, ...] = KINDS
+
+    def with_values(self, values: Mapping[str, Any]) -> Distortion:
+        """The same distortion with other parameter values. Raises `WorkbenchError` for unknown names or ranges."""
+        form = {p.name: p for p in self.parameters}
+        checked = dict(self.values)
+        for name, value in values.items():
+            if name not in form:
+                raise WorkbenchError(f"{self.label} has no parameter {name!r}; it has: {', '.join(form) or 'none'}.")
+            checked[name] = float(form[name].check(value))
+        return Distortion(
+            self.id, self.label, self.formula, self.parameters, checked, self.barrier, self.citation, self.short, self.description, self.kinds
+        )
+
+    @property
+    def parameter_values(self) -> dict[str, float]:
+        """Every parameter with the value in force."""
+        return {p.name: float(self.values.get(p.name, p.default)) for p in self.parameters}
+
+    @cached_property
+    def _compiled(self) -> dict[int, CompiledFormula]:
+        return {}
+
+    def compiled(self, dimension: int) -> CompiledFormula:
+        """The formula compiled for n = `dimension`. Raises `FormulaError`."""
+        if dimension not in self._compiled:
+            self._compiled[dimension] = compile_formula(self.formula, dimension, self.parameter_values, _formula_of)
+        return self._compiled[dimension]
+
+    def has_barrier(self, dimension: int) -> bool:
+        """Whether D is +inf on det <= 0."""
+        if self.barrier is not None:
+            return self.barrier
+        # Infinite, undefined or steeper than any power root as sigma_n -> 0 with the others at 1.
+        sigma = np.ones((2, dimension))
+        sigma[:, -1] = (0.0, 1e-200)
+        values = self.compiled(dimension).value.evaluate(sigma)[:, 0]
+        return bool(not np.isfinite(values[0]) or not np.isfinite(values[1]))
+
+    def value(self, sigma: Floats) -> Floats:
+        """(m, n) signed singular values -> (m,); +inf on det <= 0 for a barrier distortion."""
+        return self.derivatives(sigma, 0)[0]
+
+    def gradient(self, sigma: Floats) -> Floats:
+        """(m, n) signed singular values -> (m, n), derivatives by the signed values."""
+        return self.derivatives(sigma, 1)[1]
+
+    def hessian(self, sigma: Floats) -> Floats:
+        """(m, n) signed singular values -> (m, n, n), second derivatives by the signed values."""
+        return self.derivatives(sigma, 2)[2]
+
+    def derivatives(self, sigma: Floats, order: int) -> tuple[Floats, ...]:
+        """Value, and gradient and Hessian where `order` is 1 or 2; see `value`, `gradient`, `hessian`."""
+        sigma = np.atleast_2d(np.asarray(sigma, dtype=np.float64))
+        n = sigma.shape[1]
+        compiled = self.compiled(n)
+        tape = (compiled.value, compiled.gradient, compiled.hessian)[order]
+        raw = tape.evaluate(np.abs(sigma))
+        sign = np.where(sigma < 0, -1.0, 1.0)
+        value = raw[:, 0].copy()
+        if self.has_barrier(n):
+            value[np.prod(sigma, axis=1) <= 0] = np.inf
+        result: list[Floats] = [value]
+        if order >= 1:
+            result.append(raw[:, 1 : n + 1] * sign)
+        if order == 2:
+            hessian = np.empty((len(sigma), n, n))
+            column = n + 1
+            for i in range(n):
+                for j in range(i, n):
+                    hessian[:, i, j] = hessian[:, j, i] = raw[:, column] * sign[:, i] * sign[:, j]
+                    column += 1
+            result.append(hessian)
+        return tuple(result)
+
+    @staticmethod
+    def resolve(text: str, values: Mapping[str, Any] | None = None) -> Distortion:
+        """The registered distortion of that id, or the typed formula, with parameter values.
+
+        A name in a typed formula that is nothing else becomes a parameter where `values` names it.
+        Raises `FormulaError` for a formula that is refused, `WorkbenchError` for parameters that do not fit.
+        """
+        from workbench.core.registry import registry
+
+        values = dict(values or {})
+        known = registry().distortions
+        if text in known:
+            distortion = known[text].with_values(values)
+        else:
+            if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", text) and "-" in text and not any(c.isdigit() for c in text):
+                names = text.split("-")
+                if not any(n.startswith("sigma") or n == "det" for n in names):
+                    raise FormulaError(f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma.")
+            distortion = Distortion.from_formula(text, values)
+        for n in (2, 3):
+            try:
+                distortion.compiled(n)
+            except FormulaError:
+                if n == 2:
+                    raise
+        return distortion
+
+    @staticmethod
+    def from_formula(text: str, values: Mapping[str, Any] | None = None) -> Distortion:
+        """A distortion out of a typed formula; names in `values` are its parameters."""
+        values = dict(values or {})
+        used = set(names_in_formula(text))
+        borrowed: dict[str, Parameter] = {}
+        for name in used:
+            other = _distortion_of(name)
+            if other is not None:
+                borrowed.update({p.name: p for p in other.parameters})
+        form = []
+        for name, value in values.items():
+            if name in borrowed:
+                form.append(borrowed[name])
+            elif name in used:
+                form.append(Parameter(name, float, float(Parameter(name, float, 0.0).check(value)), "parameter of the formula"))
+            else:
+                raise WorkbenchError(f"The formula has no parameter {name!r}.")
+        for name, item in borrowed.items():
+            if name not in values:
+                form.append(item)
+        return Distortion(id=text, label=text, formula=text, parameters=tuple(form)).with_values(values)
+
+
+def _distortion_of(name: str) -> Distortion | None:
+    from workbench.core.registry import registry
+
+    known = registry().distortions
+    return known.get(name.replace("_", "-")) or known.get(name)
+
+
+@lru_cache(maxsize=256)
+def _formula_of(name: str) -> tuple[str, Mapping[str, float]] | None:
+    other = _distortion_of(name)
+    return None if other is None else (other.formula, other.parameter_values)

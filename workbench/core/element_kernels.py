@@ -1,0 +1,325 @@
+"""The fused kernels: positions to energy, gradient and projected Hessian, a block of simplices at a time.
+
+Each kernel works on the simplices [start, stop) and adds into buffers of its own, so that a few threads share the work and
+the sum is taken in a fixed order. Within a block: edges -> signed singular values -> the formula's tape -> assembly.
+Hessian in J-space: the block D_ij on span(u_i v_i^T), and a twist and a flip for each pair (MATH: isotropic eigensystem).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba
+import numpy as np
+
+from workbench.core.jacobians import target_edges_3d
+from workbench.core.singular_values import determinant_3x3, half_angle, signed_svd_2x2, signed_svd_3x3
+from workbench.core.tape import run_tape
+
+TIE = 1e-7
+"""Relative gap of two singular values below which the flip eigenvalue is taken at its limit D_ii - D_ij."""
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrier, start, stop):  # type: ignore[no-untyped-def]
+    """Energy of triangles [start, stop): (sum w D, inverted count); +inf at the first inverted one of a barrier."""
+    lanes = memory.shape[1]
+    energy = 0.0
+    inverted = 0
+    for block in range(start, stop, lanes):
+        count = min(lanes, stop - block)
+        for l in range(count):
+            e = block + l
+            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
+            p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
+            q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
+            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
+            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
+            det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
+            if not det > 0.0:
+                inverted += 1
+                if barrier:
+                    return math.inf, inverted
+            a, b = p0 * m00 + q0 * m10, p0 * m01 + q0 * m11
+            c, d = p1 * m00 + q1 * m10, p1 * m01 + q1 * m11
+            alpha = math.sqrt((a + d) * (a + d) + (c - b) * (c - b))
+            beta = math.sqrt((a - d) * (a - d) + (c + b) * (c + b))
+            s1 = 0.5 * (alpha + beta)
+            memory[0, l] = s1
+            memory[1, l] = abs(det) / s1 if s1 > 0.0 else 0.0
+        run_tape(code, memory)
+        row = memory[outputs[0]]
+        for l in range(count):
+            energy += weights[block + l] * row[l]
+    return energy, inverted
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def energy_3d(x, simplices, inverse_rest, weights, code, outputs, memory, barrier, start, stop):  # type: ignore[no-untyped-def]
+    """Energy of tetrahedra [start, stop): see `energy_2d`."""
+    lanes = memory.shape[1]
+    energy = 0.0
+    inverted = 0
+    D, J = np.empty((3, 3)), np.empty((3, 3))
+    U, V, s = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
+    for block in range(start, stop, lanes):
+        count = min(lanes, stop - block)
+        for l in range(count):
+            e = block + l
+            det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
+            if not det > 0.0:
+                inverted += 1
+                if barrier:
+                    return math.inf, inverted
+            _jacobian_3d(D, inverse_rest, e, J)
+            signed_svd_3x3(J, U, s, V)
+            memory[0, l], memory[1, l], memory[2, l] = s[0], s[1], abs(s[2])
+        run_tape(code, memory)
+        row = memory[outputs[0]]
+        for l in range(count):
+            energy += weights[block + l] * row[l]
+    return energy, inverted
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def _jacobian_3d(D, inverse_rest, e, J):  # type: ignore[no-untyped-def]
+    for i in range(3):
+        for j in range(3):
+            J[i, j] = D[i, 0] * inverse_rest[e, 0, j] + D[i, 1] * inverse_rest[e, 1, j] + D[i, 2] * inverse_rest[e, 2, j]
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def derivatives_2d(  # type: ignore[no-untyped-def]
+    x, simplices, inverse_rest, weights, code, outputs, memory, order, project, slots, start, stop, gradient, values
+):
+    """Energy, gradient and, for order 2, Hessian values of triangles [start, stop).
+
+    gradient : (N, 2) added to;  values : (nnz,) added to through slots (m, 21);  returns (energy, inverted count)
+    """
+    lanes = memory.shape[1]
+    frames = np.empty((lanes, 5))  # cosine and sine of U and V, sign of sigma_2
+    energy = 0.0
+    inverted = 0
+    B = np.empty((4, 6))
+    lam = np.empty(4)
+    for block in range(start, stop, lanes):
+        count = min(lanes, stop - block)
+        for l in range(count):
+            e = block + l
+            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
+            p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
+            q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
+            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
+            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
+            det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
+            s1, s2, uc, us, vc, vs = signed_svd_2x2(
+                p0 * m00 + q0 * m10, p0 * m01 + q0 * m11, p1 * m00 + q1 * m10, p1 * m01 + q1 * m11, det
+            )
+            if not det > 0.0:
+                inverted += 1
+            memory[0, l], memory[1, l] = s1, abs(s2)
+            frames[l, 0], frames[l, 1], frames[l, 2], frames[l, 3] = uc, us, vc, vs
+            frames[l, 4] = -1.0 if s2 < 0.0 else 1.0
+        run_tape(code, memory)
+        for l in range(count):
+            e = block + l
+            w = weights[e]
+            sign = frames[l, 4]
+            s1, s2 = memory[0, l], sign * memory[1, l]
+            energy += w * memory[outputs[0], l]
+            d1, d2 = memory[outputs[1], l], sign * memory[outputs[2], l]
+            uc, us, vc, vs = frames[l, 0], frames[l, 1], frames[l, 2], frames[l, 3]
+            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
+            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
+            # hat gradients in the frame of V: h_j = V^T g_j
+            h10, h11 = vc * m00 + vs * m01, vc * m01 - vs * m00
+            h20, h21 = vc * m10 + vs * m11, vc * m11 - vs * m10
+            # gradient: U diag(D_i) h_j
+            a0, a1 = d1 * h10, d2 * h11
+            b0, b1 = d1 * h20, d2 * h21
+            gj0, gj1 = w * (uc * a0 - us * a1), w * (us * a0 + uc * a1)
+            gk0, gk1 = w * (uc * b0 - us * b1), w * (us * b0 + uc * b1)
+            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
+            gradient[j, 0] += gj0
+            gradient[j, 1] += gj1
+            gradient[k, 0] += gk0
+            gradient[k, 1] += gk1
+            gradient[i, 0] -= gj0 + gk0
+            gradient[i, 1] -= gj1 + gk1
+            if order < 2:
+                continue
+            d11 = memory[outputs[3], l]
+            d12 = sign * memory[outputs[4], l]
+            d22 = memory[outputs[5], l]
+            # eigenvectors of the 2x2 block
+            mean, half = 0.5 * (d11 + d22), 0.5 * (d11 - d22)
+            radius = math.sqrt(half * half + d12 * d12)
+            if radius > 0.0:
+                bc, bs = half_angle(half / radius, d12 / radius)
+            else:
+                bc, bs = 1.0, 0.0
+            lam[0], lam[1] = mean + radius, mean - radius
+            total = s1 + s2
+            floor = 1e-12 * s1 + 1e-300
+            lam[2] = (d1 + d2) / (total if total > floor else floor)
+            gap = s1 - s2
+            lam[3] = (d1 - d2) / gap if gap > TIE * s1 else d11 - d12
+            if project:
+                for r in range(4):
+                    if not lam[r] > 0.0:
+                        lam[r] = 0.0
+            # rows of B: derivative of each J-space direction by the six coordinates, in the frame of U
+            for v in range(1, 3):
+                h0, h1 = (h10, h11) if v == 1 else (h20, h21)
+                for r in range(4):
+                    if r == 0:
+                        y0, y1 = bc * h0, bs * h1
+                    elif r == 1:
+                        y0, y1 = -bs * h0, bc * h1
+                    elif r == 2:  # twist (u1 v2^T - u2 v1^T) / sqrt 2
+                        y0, y1 = math.sqrt(0.5) * h1, -math.sqrt(0.5) * h0
+                    else:  # flip (u1 v2^T + u2 v1^T) / sqrt 2
+                        y0, y1 = math.sqrt(0.5) * h1, math.sqrt(0.5) * h0
+                    B[r, 2 * v], B[r, 2 * v + 1] = uc * y0 - us * y1, us * y0 + uc * y1
+            for r in range(4):
+                B[r, 0], B[r, 1] = -B[r, 2] - B[r, 4], -B[r, 3] - B[r, 5]
+                lam[r] *= w
+            slot = 0
+            for a in range(6):
+                c0, c1 = lam[0] * B[0, a], lam[1] * B[1, a]
+                c2, c3 = lam[2] * B[2, a], lam[3] * B[3, a]
+                for b in range(a, 6):
+                    values[slots[e, slot]] += c0 * B[0, b] + c1 * B[1, b] + c2 * B[2, b] + c3 * B[3, b]
+                    slot += 1
+    return energy, inverted
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def derivatives_3d(  # type: ignore[no-untyped-def]
+    x, simplices, inverse_rest, weights, code, outputs, memory, order, project, slots, start, stop, gradient, values
+):
+    """Energy, gradient and, for order 2, Hessian values of tetrahedra [start, stop); slots (m, 78), see `derivatives_2d`."""
+    lanes = memory.shape[1]
+    frames_u, frames_v = np.empty((lanes, 3, 3)), np.empty((lanes, 3, 3))
+    signed = np.empty((lanes, 3))
+    energy = 0.0
+    inverted = 0
+    D, J = np.empty((3, 3)), np.empty((3, 3))
+    H = np.empty((4, 3))
+    y = np.empty(3)
+    Q, block3 = np.empty((3, 3)), np.empty((3, 3))
+    first = np.empty(3)
+    B = np.empty((9, 12))
+    lam = np.empty(9)
+    scaled = np.empty(9)
+    for block in range(start, stop, lanes):
+        count = min(lanes, stop - block)
+        for l in range(count):
+            e = block + l
+            det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
+            if not det > 0.0:
+                inverted += 1
+            _jacobian_3d(D, inverse_rest, e, J)
+            signed_svd_3x3(J, frames_u[l], signed[l], frames_v[l])
+            memory[0, l], memory[1, l], memory[2, l] = signed[l, 0], signed[l, 1], abs(signed[l, 2])
+        run_tape(code, memory)
+        for l in range(count):
+            e = block + l
+            w = weights[e]
+            U, V, s = frames_u[l], frames_v[l], signed[l]
+            sign = -1.0 if s[2] < 0.0 else 1.0
+            energy += w * memory[outputs[0], l]
+            for i in range(3):
+                first[i] = memory[outputs[1 + i], l]
+            first[2] *= sign
+            for i in range(3):
+                H[0, i] = 0.0
+            for j in range(3):
+                for i in range(3):
+                    h = V[0, i] * inverse_rest[e, j, 0] + V[1, i] * inverse_rest[e, j, 1] + V[2, i] * inverse_rest[e, j, 2]
+                    H[j + 1, i] = h
+                    H[0, i] -= h
+            for j in range(4):
+                v = simplices[e, j]
+                for c in range(3):
+                    gradient[v, c] += w * (
+                        U[c, 0] * first[0] * H[j, 0] + U[c, 1] * first[1] * H[j, 1] + U[c, 2] * first[2] * H[j, 2]
+                    )
+            if order < 2:
+                continue
+            k = 4
+            for i in range(3):
+                for j in range(i, 3):
+                    d = memory[outputs[k], l]
+                    if (i == 2) != (j == 2):
+                        d *= sign
+                    block3[i, j] = block3[j, i] = d
+                    k += 1
+            r = 3
+            for i in range(3):
+                for j in range(i + 1, 3):
+                    total, gap = s[i] + s[j], s[i] - s[j]
+                    floor = 1e-12 * s[0] + 1e-300
+                    twist = (first[i] + first[j]) / (total if total > floor else floor)
+                    flip = (first[i] - first[j]) / gap if gap > TIE * s[0] else block3[i, i] - block3[i, j]
+                    lam[r], lam[r + 1] = twist, flip
+                    for v in range(4):
+                        t0, t1 = math.sqrt(0.5) * H[v, j], math.sqrt(0.5) * H[v, i]
+                        for c in range(3):
+                            B[r, 3 * v + c] = U[c, i] * t0 - U[c, j] * t1
+                            B[r + 1, 3 * v + c] = U[c, i] * t0 + U[c, j] * t1
+                    r += 2
+            symmetric_eigen_3x3(block3, Q)
+            for i in range(3):
+                lam[i] = block3[i, i]
+                for v in range(4):
+                    for a in range(3):
+                        y[a] = Q[a, i] * H[v, a]
+                    for c in range(3):
+                        B[i, 3 * v + c] = U[c, 0] * y[0] + U[c, 1] * y[1] + U[c, 2] * y[2]
+            for i in range(9):
+                if project and not lam[i] > 0.0:
+                    lam[i] = 0.0
+                lam[i] *= w
+            slot = 0
+            for a in range(12):
+                for i in range(9):
+                    scaled[i] = lam[i] * B[i, a]
+                for b in range(a, 12):
+                    total = 0.0
+                    for i in range(9):
+                        total += scaled[i] * B[i, b]
+                    values[slots[e, slot]] += total
+                    slot += 1
+    return energy, inverted
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def symmetric_eigen_3x3(A, Q):  # type: ignore[no-untyped-def]
+    """Cyclic Jacobi: A (3, 3) symmetric is made diagonal in place, the columns of Q are the eigenvectors."""
+    for i in range(3):
+        for j in range(3):
+            Q[i, j] = 1.0 if i == j else 0.0
+    for _ in range(30):
+        scale = abs(A[0, 0]) + abs(A[1, 1]) + abs(A[2, 2])
+        off = abs(A[0, 1]) + abs(A[0, 2]) + abs(A[1, 2])
+        if not off > 1e-17 * scale:
+            return
+        for k in range(3):
+            p = 0 if k < 2 else 1
+            q = 1 if k == 0 else 2
+            if A[p, q] == 0.0:
+                continue
+            theta = (A[q, q] - A[p, p]) / (2.0 * A[p, q])
+            t = (1.0 if theta >= 0 else -1.0) / (abs(theta) + math.sqrt(1.0 + theta * theta))
+            c = 1.0 / math.sqrt(1.0 + t * t)
+            s = c * t
+            for i in range(3):
+                a, b = A[i, p], A[i, q]
+                A[i, p], A[i, q] = c * a - s * b, s * a + c * b
+            for i in range(3):
+                a, b = A[p, i], A[q, i]
+                A[p, i], A[q, i] = c * a - s * b, s * a + c * b
+            for i in range(3):
+                a, b = Q[i, p], Q[i, q]
+                Q[i, p], Q[i, q] = c * a - s * b, s * a + c * b

@@ -1,0 +1,105 @@
+"""The energy E_D (47) of a map: value, exact gradient (96)(97) and Hessian on a fixed pattern."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.distortion import Distortion
+from workbench.core.element_kernels import derivatives_2d, derivatives_3d, energy_2d, energy_3d
+from workbench.core.jacobians import Elements
+from workbench.core.pattern import HessianPattern, build_pattern
+from workbench.core.tape import Tape
+from workbench.core.threads import over_ranges
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """Energy and what was asked for with it.
+
+    `gradient` : (N, d) float64;  `hessian_values` : (nnz,) float64 on the pattern, positive semi-definite where projected
+    """
+
+    energy: float
+    inverted: int
+    gradient: Floats
+    hessian_values: Floats | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Energy:
+    """Sum of w D over the simplices of a source."""
+
+    elements: Elements
+    distortion: Distortion
+    allow_inversions: bool = False
+    _shared: dict[str, HessianPattern] = field(default_factory=dict, repr=False)
+
+    @property
+    def pattern(self) -> HessianPattern:
+        """Built when first asked for and shared by every energy on these elements."""
+        if "pattern" not in self._shared:
+            e = self.elements
+            self._shared["pattern"] = build_pattern(e.simplices, e.vertex_count, e.dimension)
+        return self._shared["pattern"]
+
+    def with_distortion(self, distortion: Distortion, allow_inversions: bool) -> Energy:
+        """The same source with another density: elements and pattern are shared."""
+        return Energy(self.elements, distortion, allow_inversions, self._shared)
+
+    @cached_property
+    def has_barrier(self) -> bool:
+        return self.distortion.has_barrier(self.elements.dimension)
+
+    def value(self, positions: Floats) -> tuple[float, int]:
+        """(energy, inverted count); +inf where a barrier distortion meets an inversion (then the count is a lower bound)."""
+        e = self.elements
+        tape = self.distortion.compiled(e.dimension).value
+        kernel = energy_2d if e.dimension == 2 else energy_3d
+        barrier = self.has_barrier
+
+        def work(part: int, start: int, stop: int) -> tuple[float, int]:
+            return kernel(  # type: ignore[no-any-return]
+                positions, e.simplices, e.inverse_rest, e.rest_measures,
+                tape.code, tape.outputs, tape.registers(), barrier, start, stop,
+            )  # fmt: skip
+
+        results = over_ranges(work, len(e.simplices))
+        return float(sum(r[0] for r in results)), int(sum(r[1] for r in results))
+
+    def gradient(self, positions: Floats) -> Evaluation:
+        """Energy and gradient. Not finite where a barrier distortion meets an inversion."""
+        return self._derivatives(positions, self.distortion.compiled(self.elements.dimension).gradient, 1, False)
+
+    def hessian(self, positions: Floats, *, project: bool = True) -> Evaluation:
+        """Energy, gradient and Hessian; `project` makes every simplex's block positive semi-definite."""
+        return self._derivatives(positions, self.distortion.compiled(self.elements.dimension).hessian, 2, project)
+
+    def _derivatives(self, positions: Floats, tape: Tape, order: int, project: bool) -> Evaluation:
+        e = self.elements
+        kernel = derivatives_2d if e.dimension == 2 else derivatives_3d
+        slots = self.pattern.slots if order == 2 else np.empty((1, 1), dtype=np.int32)
+        entry_count = self.pattern.entry_count if order == 2 else 1
+
+        def work(part: int, start: int, stop: int) -> tuple[float, int, Floats, Floats]:
+            gradient = np.zeros((e.vertex_count, e.dimension))
+            values = np.zeros(entry_count)
+            energy, inverted = kernel(
+                positions, e.simplices, e.inverse_rest, e.rest_measures, tape.code, tape.outputs, tape.registers(),
+                order, project, slots, start, stop, gradient, values,
+            )  # fmt: skip
+            return energy, inverted, gradient, values
+
+        results = over_ranges(work, len(e.simplices))
+        energy, inverted, gradient, values = results[0]
+        for other in results[1:]:
+            energy += other[0]
+            inverted += other[1]
+            gradient += other[2]
+            values += other[3]
+        if inverted and self.has_barrier:
+            energy = float("inf")
+        return Evaluation(float(energy), int(inverted), gradient, values if order == 2 else None)

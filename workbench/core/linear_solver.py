@@ -1,0 +1,155 @@
+"""Sparse Cholesky with a kept symbolic analysis, behind one small interface; back ends chosen by what is installed."""
+
+from __future__ import annotations
+
+import os
+from abc import ABC, abstractmethod
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
+
+from workbench.core.arrays import Floats
+from workbench.core.pattern import HessianPattern
+
+
+class SingularMatrixError(Exception):
+    """The matrix is not positive definite to working precision."""
+
+
+class LinearSolver(ABC):
+    """Factorises symmetric positive definite matrices that share one pattern."""
+
+    name: str
+
+    @abstractmethod
+    def factorise(self, values: Floats) -> None:
+        """Numeric factorisation; (nnz,) values on the pattern. Raises `SingularMatrixError`."""
+
+    @abstractmethod
+    def solve(self, rhs: Floats) -> Floats:
+        """(N,) or (N, k) right-hand sides, in the order of the matrix; returns a new array. Needs a factorisation."""
+
+
+class Cholmod(LinearSolver):
+    """CHOLMOD, supernodal, through cvxopt. The pattern is in its elimination order already."""
+
+    name = "cholmod"
+
+    def __init__(self, pattern: HessianPattern) -> None:
+        import cvxopt
+        import cvxopt.cholmod
+
+        self._cvxopt = cvxopt
+        self._cholmod = cvxopt.cholmod
+        size, count = pattern.size, pattern.entry_count
+        self._values = cvxopt.matrix(0.0, (count, 1))
+        self._view = np.asarray(memoryview(self._values)).reshape(-1)
+        # Positive on the diagonal so that nothing is dropped and the analysis sees a proper matrix.
+        self._matrix = cvxopt.spmatrix(
+            cvxopt.matrix(1.0, (count, 1)),
+            cvxopt.matrix(pattern.rows),
+            cvxopt.matrix(pattern.columns),
+            (size, size),
+        )
+        natural = cvxopt.matrix(np.arange(size, dtype=np.int64))
+        self._factor = self._cholmod.symbolic(self._matrix, natural)
+
+    def factorise(self, values: Floats) -> None:
+        self._view[:] = values
+        self._matrix.V = self._values
+        try:
+            self._cholmod.numeric(self._matrix, self._factor)
+        except ArithmeticError as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def solve(self, rhs: Floats) -> Floats:
+        columns = rhs.reshape(len(rhs), -1)
+        b = self._cvxopt.matrix(np.asfortranarray(columns))
+        self._cholmod.solve(self._factor, b)
+        return np.array(b).reshape(rhs.shape)
+
+
+class SuperLU(LinearSolver):
+    """SciPy's LU, where cvxopt is missing: slower, always there."""
+
+    name = "superlu"
+
+    def __init__(self, pattern: HessianPattern) -> None:
+        lower = sparse.csc_matrix(
+            (np.arange(1, pattern.entry_count + 1, dtype=np.float64), pattern.rows, pattern.column_starts),
+            shape=(pattern.size, pattern.size),
+        )
+        full = sparse.csc_matrix(lower + sparse.tril(lower, -1).T)
+        full.sort_indices()
+        # Each value of the full matrix knows which entry of the lower triangle it comes from.
+        self._source = full.data.astype(np.int64) - 1
+        self._matrix = full
+        self._factor: linalg.SuperLU | None = None
+
+    def factorise(self, values: Floats) -> None:
+        self._matrix.data = values[self._source]
+        options = {"SymmetricMode": True}
+        try:
+            self._factor = linalg.splu(self._matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
+        except RuntimeError as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def solve(self, rhs: Floats) -> Floats:
+        assert self._factor is not None
+        result: Floats = self._factor.solve(np.asarray(rhs))
+        return result
+
+
+class Pardiso(LinearSolver):
+    """Intel MKL PARDISO through the extra `mkl`."""
+
+    name = "pardiso"
+
+    def __init__(self, pattern: HessianPattern) -> None:
+        import pypardiso
+
+        self._solver = pypardiso.PyPardisoSolver(mtype=2)
+        # PARDISO takes the upper triangle by rows: that is the lower triangle by columns.
+        self._matrix = sparse.csr_matrix(
+            (np.ones(pattern.entry_count), pattern.rows, pattern.column_starts), shape=(pattern.size, pattern.size)
+        )
+        self._analysed = False
+
+    def factorise(self, values: Floats) -> None:
+        self._matrix.data = np.ascontiguousarray(values)
+        try:
+            if not self._analysed:
+                self._solver.set_phase(11)
+                self._solver._call_pardiso(self._matrix, np.zeros((self._matrix.shape[0], 1)))
+                self._analysed = True
+            self._solver.set_phase(22)
+            self._solver._call_pardiso(self._matrix, np.zeros((self._matrix.shape[0], 1)))
+        except Exception as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def solve(self, rhs: Floats) -> Floats:
+        self._solver.set_phase(33)
+        result = self._solver._call_pardiso(self._matrix, np.asfortranarray(rhs.reshape(len(rhs), -1)))
+        return np.asarray(result).reshape(rhs.shape)
+
+
+BACK_ENDS: dict[str, type[LinearSolver]] = {"cholmod": Cholmod, "superlu": SuperLU, "pardiso": Pardiso}
+
+
+def available_back_ends() -> tuple[str, ...]:
+    """Names of the back ends whose libraries can be imported, the preferred one first."""
+    from importlib.util import find_spec
+
+    names = []
+    if find_spec("cvxopt"):
+        names.append("cholmod")
+    if find_spec("pypardiso"):
+        names.append("pardiso")
+    return (*names, "superlu")
+
+
+def make_linear_solver(pattern: HessianPattern, name: str = "") -> LinearSolver:
+    """The back end of that name, or of the environment variable WORKBENCH_LINEAR_SOLVER, or the preferred one."""
+    name = name or os.environ.get("WORKBENCH_LINEAR_SOLVER", "") or available_back_ends()[0]
+    return BACK_ENDS[name](pattern)

@@ -1,0 +1,225 @@
+"""What is minimised: a source, a distortion, anchors and constraints."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+
+from workbench.core.arrays import Floats
+from workbench.core.constraints import Anchors, LinearConstraints
+from workbench.core.distortion import Distortion
+from workbench.core.energy import Energy, Evaluation
+from workbench.core.jacobians import Elements, build_elements, determinants
+from workbench.core.mesh import Mesh
+from workbench.core.method import Kind
+from workbench.core.newton_system import NewtonSystem
+
+ANCHOR_TOLERANCE = 1e-9
+"""An anchor is in place within this part of the source's diameter."""
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """When every solver stops alike.
+
+    `tolerance` : relative energy decrease of a step;  `gradient_tolerance` : characteristic gradient norm, None: not asked
+    """
+
+    tolerance: float = 1e-6
+    gradient_tolerance: float | None = None
+
+
+class Workspace:
+    """Working memory that outlives a step: the last factor, and seconds and counts by part.
+
+    Problems that differ in anchors or distortion share it; it never holds a result, only what saves time.
+    """
+
+    def __init__(self, energy: Energy) -> None:
+        self._energy = energy
+        self._system: NewtonSystem | None = None
+        self.seconds = {"assemble": 0.0, "line_search": 0.0}
+        self.counts = {"energy": 0, "gradient": 0, "hessian": 0}
+        self.groups: tuple[bytes, list[np.ndarray]] | None = None
+
+    @property
+    def system(self) -> NewtonSystem:
+        """Made when first asked for: that builds the pattern and the symbolic analysis."""
+        if self._system is None:
+            self._system = NewtonSystem(self._energy.pattern)
+        return self._system
+
+    def forget_factor(self) -> None:
+        if self._system is not None:
+            self._system.forget()
+
+    def all_seconds(self) -> dict[str, float]:
+        """Seconds by part: assemble, factorise, solve, line_search."""
+        own = self._system.seconds if self._system else {"factorise": 0.0, "solve": 0.0}
+        return {**self.seconds, **own}
+
+    @contextmanager
+    def timed(self, part: str) -> Iterator[None]:
+        begin = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[part] += time.perf_counter() - begin
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A minimisation over the maps of one source; frozen, `with_...` makes variants that share what stays the same."""
+
+    mesh: Mesh
+    kind: Kind
+    density: Energy
+    anchors: Anchors
+    constraints: LinearConstraints | None = None
+    criteria: Criteria = Criteria()
+    workspace: Workspace = field(default=None, repr=False)  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        if self.workspace is None:
+            object.__setattr__(self, "workspace", Workspace(self.density))
+        self.anchors.check(self.mesh.vertex_count, self.dimension)
+
+    @staticmethod
+    def create(
+        mesh: Mesh,
+        kind: Kind,
+        distortion: Distortion,
+        anchors: Anchors | None = None,
+        *,
+        constraints: LinearConstraints | None = None,
+        allow_inversions: bool = False,
+        criteria: Criteria | None = None,
+    ) -> Problem:
+        """A problem on a source that suits `kind` (see `workbench.core.fixes.check_for_kind`).
+
+        Raises `MeshError` for degenerate simplices, `WorkbenchError` for anchors that do not fit,
+        `FormulaError` where the distortion does not exist in this dimension.
+        """
+        distortion.compiled(mesh.dimension)
+        energy = Energy(build_elements(mesh), distortion, allow_inversions)
+        return Problem(mesh, kind, energy, anchors or Anchors.none(mesh.dimension), constraints, criteria or Criteria())
+
+    # ---------------------------------------------------------------------------------------- variants
+
+    def with_anchors(self, anchors: Anchors) -> Problem:
+        """Other anchors; shares everything that does not depend on them."""
+        return replace(self, anchors=anchors)
+
+    def with_distortion(self, distortion: Distortion, allow_inversions: bool = False) -> Problem:
+        """Another distortion on the same source; the last factor is forgotten, the pattern and its analysis are kept."""
+        distortion.compiled(self.dimension)
+        self.workspace.forget_factor()
+        return replace(self, density=self.density.with_distortion(distortion, allow_inversions))
+
+    def with_criteria(self, criteria: Criteria) -> Problem:
+        return replace(self, criteria=criteria)
+
+    # -------------------------------------------------------------------------------------- properties
+
+    @property
+    def elements(self) -> Elements:
+        return self.density.elements
+
+    @property
+    def distortion(self) -> Distortion:
+        return self.density.distortion
+
+    @property
+    def dimension(self) -> int:
+        return self.elements.dimension
+
+    @property
+    def system(self) -> NewtonSystem:
+        """The Newton system with its last factor."""
+        return self.workspace.system
+
+    @cached_property
+    def total_measure(self) -> float:
+        """Area or volume of the source."""
+        return float(self.elements.rest_measures.sum())
+
+    @property
+    def forbids_inversions(self) -> bool:
+        """Whether a map without inverted simplices must stay so: always, unless inversions are allowed and finite."""
+        return self.density.has_barrier or not self.density.allow_inversions
+
+    # -------------------------------------------------------------------------------------- evaluation
+
+    def evaluate(self, positions: Floats, order: int = 1, *, project: bool = True) -> Evaluation:
+        """Energy with gradient (order 1) and Hessian values on the pattern (order 2), soft anchors included."""
+        with self.workspace.timed("assemble"):
+            self.workspace.counts["hessian" if order == 2 else "gradient"] += 1
+            density = self.density
+            result = density.hessian(positions, project=project) if order == 2 else density.gradient(positions)
+            vertices, targets, weights = self.anchors.soft
+            if not len(vertices):
+                return result
+            offset = positions[vertices] - targets
+            result.gradient[vertices] += 2.0 * weights[:, None] * offset
+            if order == 2 and result.hessian_values is not None:
+                d, pattern = self.dimension, density.pattern
+                coordinates = pattern.place[vertices][:, None] * d + np.arange(d)
+                result.hessian_values[pattern.diagonal[coordinates]] += 2.0 * weights[:, None]
+            return replace(result, energy=result.energy + float(weights @ (offset**2).sum(axis=1)))
+
+    def energy_and_inverted(self, positions: Floats) -> tuple[float, int]:
+        """(energy, inverted count), soft anchors included; +inf where a barrier distortion meets an inversion."""
+        self.workspace.counts["energy"] += 1
+        energy, inverted = self.density.value(positions)
+        vertices, targets, weights = self.anchors.soft
+        if len(vertices):
+            energy += float(weights @ ((positions[vertices] - targets) ** 2).sum(axis=1))
+        return energy, inverted
+
+    def energy(self, positions: Floats) -> float:
+        """Sum of w D over the simplices, plus the penalties of soft anchors."""
+        return self.energy_and_inverted(np.ascontiguousarray(positions, dtype=np.float64))[0]
+
+    def gradient(self, positions: Floats) -> Floats:
+        """(N, d) gradient of `energy`."""
+        return self.evaluate(np.ascontiguousarray(positions, dtype=np.float64), 1).gradient
+
+    def hessian(self, positions: Floats, *, project: bool = True) -> sparse.csc_matrix:
+        """(N d, N d) Hessian of `energy`, coordinates of a vertex together; positive semi-definite where projected."""
+        result = self.evaluate(np.ascontiguousarray(positions, dtype=np.float64), 2, project=project)
+        assert result.hessian_values is not None
+        return self.density.pattern.matrix(result.hessian_values)
+
+    def inverted(self, positions: Floats) -> int:
+        """Simplices with det J <= 0."""
+        return int(np.count_nonzero(~(determinants(self.elements, positions) > 0)))
+
+    # ------------------------------------------------------------------------------------- constraints
+
+    def anchor_error(self, positions: Floats) -> float:
+        """Largest distance of a hard anchor from its target, or residual of a linear constraint."""
+        error = self.anchors.error(positions)
+        if self.constraints is not None:
+            error = max(error, float(np.abs(self.constraints.residual(positions)).max(initial=0.0)))
+        return error
+
+    @property
+    def anchor_tolerance(self) -> float:
+        return ANCHOR_TOLERANCE * self.mesh.diameter
+
+    def anchors_lag(self, positions: Floats) -> bool:
+        """Whether A x = b does not hold yet."""
+        return self.anchor_error(positions) > self.anchor_tolerance
+
+    def free_gradient_norm(self, gradient: Floats) -> float:
+        """Euclidean norm over the vertices that no hard anchor holds."""
+        fixed = self.anchors.hard_vertices
+        square = float(np.einsum("ij,ij->", gradient, gradient))
+        held = gradient[fixed]
+        return float(np.sqrt(max(0.0, square - float(np.einsum("ij,ij->", held, held)))))

@@ -1,0 +1,117 @@
+"""How good a map is: measures a simplex, histograms, counts and verdicts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.distortion import Distortion
+from workbench.core.injectivity import global_injectivity, local_injectivity
+from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
+from workbench.core.mesh import Mesh
+
+LIVE_MEASURES = ("dirichlet", "condition-number", "symmetric-dirichlet")
+"""Distortions whose colour maps are always live: (25), (29), (32)."""
+HISTOGRAM_BINS = 64
+DEGENERATE = 1e-12
+"""A simplex is degenerate where |det J| is at most this part of sigma_1^n."""
+
+
+@dataclass(frozen=True, eq=False)
+class LiveMeasures:
+    """What the window shows of every map: float32 fields by id, the inverted simplices, the histogram of (78)."""
+
+    fields: dict[str, Any]
+    inverted: Booleans
+    histogram: tuple[Floats, Integers]
+
+
+def live_measures(elements: Elements, positions: Floats) -> LiveMeasures:
+    """Fields (m,) of `LIVE_MEASURES` on the unsigned singular values, as float32; releases the interpreter lock mostly."""
+    from workbench.core.registry import registry
+
+    sigma = signed_singular_values(elements, positions)
+    inverted = ~(sigma[:, -1] > 0)
+    sizes = np.abs(sigma)
+    known = registry().distortions
+    fields = {}
+    for id in LIVE_MEASURES:
+        if id in known:
+            raw = known[id].compiled(elements.dimension).value.evaluate(sizes)[:, 0]
+            fields[id] = np.minimum(raw, np.finfo(np.float32).max).astype(np.float32)
+    return LiveMeasures(fields, inverted, average_histogram(sizes.mean(axis=1)))
+
+
+def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
+    """Histogram of average singular values (78): (edges, counts), over the 0.1 to 99.9 percentiles; the ends take the rest."""
+    finite = averages[np.isfinite(averages)]
+    if not len(finite):
+        return np.linspace(0.0, 1.0, HISTOGRAM_BINS + 1), np.zeros(HISTOGRAM_BINS, dtype=np.int64)
+    ordered = np.sort(finite)
+    low, high = ordered[int(0.001 * (len(ordered) - 1))], ordered[int(np.ceil(0.999 * (len(ordered) - 1)))]
+    if high - low <= 1e-9 * max(abs(high), 1e-300):
+        low, high = low - 0.5 * max(abs(low), 1e-12), high + 0.5 * max(abs(high), 1e-12)
+    edges = np.linspace(low, high, HISTOGRAM_BINS + 1)
+    inner = np.searchsorted(ordered, edges[1:-1])
+    counts = np.diff(np.concatenate([[0], inner, [len(ordered)]]))
+    return edges, counts.astype(np.int64)
+
+
+def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:
+    """Every measure of a map, as DESIGN's `measure --json` gives it.
+
+    Parameters
+    ----------
+    mesh : Mesh                    the source
+    positions : (n, d) float64     the map
+
+    Returns
+    -------
+    dict     measures {id: {mean, max, min, p50, p95, area_weighted_mean}} of every registered distortion and of (78),
+             inverted, degenerate, min_det, injective {local, global, reason}, histogram78 {edges, counts}
+    """
+    from workbench.core.registry import registry
+
+    elements = build_elements(mesh)
+    positions = np.ascontiguousarray(positions, dtype=np.float64)
+    sigma = signed_singular_values(elements, positions)
+    det = determinants(elements, positions)
+    measures = {}
+    for id, distortion in sorted(registry().distortions.items()):
+        measures[id] = statistics(distortion_values(distortion, sigma), elements.rest_measures)
+    edges, counts = average_histogram(np.abs(sigma).mean(axis=1))
+    local = local_injectivity(mesh, positions)
+    whole = global_injectivity(mesh, positions)
+    return {
+        "measures": measures,
+        "inverted": int(np.count_nonzero(~(det > 0))),
+        "degenerate": int(np.count_nonzero(np.abs(sigma[:, -1]) <= DEGENERATE * np.abs(sigma[:, 0]))),
+        "min_det": float(det.min()),
+        "injective": {
+            "local": local.holds,
+            "global": whole.holds,
+            "reason": whole.reason if local.holds else local.reason,
+        },
+        "histogram78": {"edges": edges.tolist(), "counts": counts.tolist()},
+    }
+
+
+def distortion_values(distortion: Distortion, sigma: Floats) -> Floats:
+    """(m, n) signed singular values -> (m,), +inf on inverted simplices of a barrier distortion."""
+    return distortion.value(sigma)
+
+
+def statistics(values: Floats, weights: Floats) -> dict[str, float]:
+    """Mean, extremes, percentiles and area-weighted mean of values a simplex; infinities stay infinite."""
+    with np.errstate(invalid="ignore"):
+        return {
+            "mean": float(values.mean()),
+            "max": float(values.max()),
+            "min": float(values.min()),
+            "p50": float(np.percentile(values, 50, method="lower")),
+            "p95": float(np.percentile(values, 95, method="lower")),
+            "area_weighted_mean": float(weights @ values / weights.sum()),
+        }

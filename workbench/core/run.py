@@ -1,0 +1,115 @@
+"""The only plain loop, and the record of a run."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from workbench.core.arrays import Floats
+from workbench.core.problem import Criteria, Problem
+from workbench.core.solver import Interrupt, Solver, never
+from workbench.core.state import State
+from workbench.core.status import Status
+
+
+@dataclass(frozen=True)
+class HistoryRow:
+    """One line of the history: the map after `iteration` steps, `seconds` after the start."""
+
+    iteration: int
+    seconds: float
+    energy: float
+    mean_distortion: float
+    gradient_norm: float
+    step_size: float
+    inverted: int
+    anchor_error: float
+
+
+@dataclass(frozen=True, eq=False)
+class RunResult:
+    """`state.status` says how it ended; `seconds` has total, setup, assemble, factorise, solve, line_search."""
+
+    state: State
+    initial: State
+    rows: tuple[HistoryRow, ...]
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def history_row(problem: Problem, state: State, seconds: float) -> HistoryRow:
+    """The line of the history that belongs to `state`."""
+    return HistoryRow(
+        iteration=state.iteration,
+        seconds=seconds,
+        energy=state.energy,
+        mean_distortion=state.energy / problem.total_measure,
+        gradient_norm=state.gradient_norm,
+        step_size=state.step_size,
+        inverted=state.inverted,
+        anchor_error=state.anchor_error,
+    )
+
+
+def run(
+    solver: Solver,
+    problem: Problem,
+    positions: Floats,
+    *,
+    iterations: int = 1000,
+    tolerance: float = 1e-6,
+    gradient_tolerance: float | None = None,
+    time_limit: float = float("inf"),
+    interrupt: Interrupt = never,
+    on_row: Callable[[HistoryRow], None] | None = None,
+    on_state: Callable[[State], None] | None = None,
+) -> RunResult:
+    """Minimise from `positions` until a criterion of `Solver.terminate` or a limit stops it.
+
+    Parameters
+    ----------
+    positions : (N, d) float64     the start
+    iterations, time_limit         limits; the map so far is returned with MAX_ITERATIONS or TIME_LIMIT
+    interrupt : callable           true ends the run with the last accepted map and INTERRUPTED
+    on_row, on_state : callable    told after the start and after each step
+
+    Raises nothing that is expected: a failure is the status of the state.
+    """
+    problem = problem.with_criteria(Criteria(tolerance, gradient_tolerance))
+    begin = time.perf_counter()
+    state = initial = solver.init(problem, positions)
+    problem.system.solver  # noqa: B018  the symbolic analysis belongs to the set-up
+    setup = time.perf_counter() - begin
+    before = problem.workspace.all_seconds()
+    rows: list[HistoryRow] = []
+
+    def record() -> None:
+        rows.append(history_row(problem, state, time.perf_counter() - begin))
+        if on_row:
+            on_row(rows[-1])
+        if on_state:
+            on_state(state)
+
+    def stop() -> bool:
+        return interrupt() or time.perf_counter() - begin >= time_limit
+
+    record()
+    while state.status is Status.RUNNING:
+        if state.iteration >= iterations:
+            state = replace(state, status=Status.MAX_ITERATIONS)
+        elif time.perf_counter() - begin >= time_limit:
+            state = replace(state, status=Status.TIME_LIMIT)
+        elif interrupt():
+            state = replace(state, status=Status.INTERRUPTED)
+        else:
+            state = solver.step(problem, state, stop)
+            moved = state.iteration > rows[-1].iteration
+            if state.status is Status.INTERRUPTED and not interrupt():
+                state = replace(state, status=Status.TIME_LIMIT)
+            state = replace(state, status=solver.terminate(problem, state))
+            if moved:
+                record()
+    total = time.perf_counter() - begin
+    after = problem.workspace.all_seconds()
+    seconds = {"total": total, "setup": setup, **{k: after[k] - before.get(k, 0.0) for k in after}}
+    return RunResult(state, initial, tuple(rows), seconds)

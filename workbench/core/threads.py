@@ -1,0 +1,42 @@
+"""A few threads for kernels that release the interpreter lock; the work is split in a fixed way."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+T = TypeVar("T")
+
+_count = min(os.cpu_count() or 1, 8)
+_pool: ThreadPoolExecutor | None = None
+
+
+def thread_count() -> int:
+    """Threads that kernels use; results are the same bit for bit as long as it stays."""
+    return _count
+
+
+def set_thread_count(count: int) -> None:
+    """Use `count` >= 1 threads from now on."""
+    global _count, _pool
+    if count != _count:
+        _count = max(1, int(count))
+        if _pool is not None:
+            _pool.shutdown(wait=False)
+            _pool = None
+
+
+def over_ranges(work: Callable[[int, int, int], T], size: int, grain: int = 4096) -> list[T]:
+    """`work(part, start, stop)` over equal parts of range(size), in parallel; results in order of the parts."""
+    global _pool
+    parts = max(1, min(_count, size // grain))
+    bounds = [size * p // parts for p in range(parts + 1)]
+    if parts == 1:
+        return [work(0, 0, size)]
+    if _pool is None:
+        _pool = ThreadPoolExecutor(max_workers=_count, thread_name_prefix="kernel")
+    futures = [_pool.submit(work, p, bounds[p], bounds[p + 1]) for p in range(1, parts)]
+    first = work(0, bounds[0], bounds[1])
+    return [first, *[f.result() for f in futures]]
