@@ -1,0 +1,118 @@
+"""Cases: a mesh with a start and anchors, as `.npz` or as the `.mat` of the field."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.errors import MeshError
+from workbench.core.mesh import Mesh
+from workbench.io.foreign import silenced
+from workbench.io.mesh_file import check_range, finite_rows, mesh_of_file, whole_numbers
+
+LARGEST_UNPACKED = 2**32
+
+
+@dataclass(frozen=True, eq=False)
+class CaseParts:
+    """What a case holds beside its mesh; None where it does not."""
+
+    mesh: Mesh
+    start: Floats | None = None
+    map_positions: Floats | None = None
+    anchor_vertices: Integers | None = None
+    anchor_targets: Floats | None = None
+
+
+def read_npz(path: Path, data: bytes) -> CaseParts:
+    """`V` (n, 2|3), `S` (m, 3|4) from 0 and, where they are there, `X0`, `X`, `anchors` and `targets`; never pickles."""
+    arrays = npz_arrays(path, data)
+    for name in ("V", "S"):
+        if name not in arrays:
+            raise MeshError(
+                f"{path}: the array {name} is missing; a case has V (vertices) and S (simplices, from 0), "
+                f"and this file has {', '.join(sorted(arrays)) or 'nothing'}."
+            )
+    simplices = whole_numbers(path, "S", arrays["S"])
+    return _case(path, finite_rows(path, "V", arrays["V"], None, (2, 3)), simplices, arrays)
+
+
+def read_mat(path: Path, data: bytes) -> CaseParts:
+    """`V` with `T` (tetrahedra) or `F` (triangles), both from 1, and a start `fV` where it is there."""
+    arrays = mat_arrays(path, data)
+    name = next((name for name in ("T", "F") if name in arrays), "")
+    if "V" not in arrays or not name:
+        raise MeshError(
+            f"{path}: a mesh in a .mat file has V (vertices) and F (triangles) or T (tetrahedra), from 1; "
+            f"this one has {', '.join(sorted(arrays)) or 'none of them'}."
+        )
+    simplices = whole_numbers(path, name, arrays[name]) - 1
+    vertices = finite_rows(path, "V", arrays["V"], None, (2, 3))
+    known = {"X0": arrays["fV"]} if "fV" in arrays else {}
+    return _case(path, vertices, simplices, known)
+
+
+def npz_arrays(path: Path, data: bytes) -> dict[str, Any]:
+    """The arrays of an npz file by name; `MeshError` where it is damaged or holds objects."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            unpacked = sum(entry.file_size for entry in archive.infolist())
+        if unpacked > LARGEST_UNPACKED:
+            raise MeshError(f"{path}: unpacked it would take {unpacked / 2**30:.0f} GiB, too much for one mesh.")
+        with np.load(io.BytesIO(data), allow_pickle=False) as content:
+            return {name: content[name] for name in content.files}
+    except MeshError:
+        raise
+    except (Exception, SystemExit):
+        raise MeshError(f"{path}: it cannot be read as .npz; it is damaged, cut short, or holds objects.") from None
+
+
+def mat_arrays(path: Path, data: bytes) -> dict[str, Any]:
+    """The plain arrays of a MATLAB file (version 7 or older) by name."""
+    if b"MATLAB 7.3" in data[:128]:
+        raise MeshError(f"{path}: it is a MATLAB 7.3 file (HDF5); save it again with the option -v7.")
+    with silenced():
+        try:
+            from scipy.io import loadmat
+
+            content = loadmat(io.BytesIO(data), variable_names=("V", "T", "F", "fV"))
+        except (Exception, SystemExit):
+            content = None
+    if content is None:
+        raise MeshError(f"{path}: it cannot be read as a MATLAB file; it is damaged or cut short.")
+    return {name: value for name, value in content.items() if isinstance(value, np.ndarray)}
+
+
+def _case(path: Path, vertices: Floats, simplices: Integers, arrays: dict[str, Any]) -> CaseParts:
+    mesh = mesh_of_file(path, vertices, simplices)
+    known = {
+        name: finite_rows(path, name, arrays[name], mesh.vertex_count, (2, 3)) for name in ("X0", "X") if name in arrays
+    }
+    for positions in known.values():
+        check_range(path, positions)
+    anchors, targets = _anchors(path, mesh, arrays)
+    return CaseParts(
+        mesh, known.get("X0", known.get("X")), known.get("X", known.get("X0")), anchors, targets
+    )  # fmt: skip
+
+
+def _anchors(path: Path, mesh: Mesh, arrays: dict[str, Any]) -> tuple[Integers | None, Floats | None]:
+    if "anchors" not in arrays and "targets" not in arrays:
+        return None, None
+    if "anchors" not in arrays or "targets" not in arrays:
+        raise MeshError(f"{path}: of anchors and targets only one is there; a case has both or none.")
+    vertices = whole_numbers(path, "anchors", np.ravel(arrays["anchors"]))
+    given = np.asarray(arrays["targets"])
+    targets = finite_rows(path, "targets", given.reshape(0, 2) if not given.size else given, len(vertices), (2, 3))
+    if len(vertices) and not (0 <= vertices.min() and vertices.max() < mesh.vertex_count):
+        bad = int(vertices[(vertices < 0) | (vertices >= mesh.vertex_count)][0])
+        raise MeshError(f"{path}: anchors name vertex {bad} (from 0), but the mesh has {mesh.vertex_count} vertices.")
+    if len(np.unique(vertices)) != len(vertices):
+        raise MeshError(f"{path}: anchors name the same vertex twice; one target a vertex is needed.")
+    return vertices, targets

@@ -1,0 +1,126 @@
+"""PLY, STL, MEDIT, Gmsh, VTK and VTU through meshio, behind a guard.
+
+meshio ends the program, prints, or raises anything at all on files that it cannot read; here every such end is a
+`MeshError`, and nothing is printed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import io
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from workbench.core.arrays import Integers
+from workbench.core.errors import MeshError
+from workbench.core.mesh import Mesh
+from workbench.io.mesh_file import mesh_of_file
+from workbench.io.polygons import fan
+
+FORMATS = {
+    ".ply": ("ply", "PLY"),
+    ".stl": ("stl", "STL"),
+    ".mesh": ("medit", "MEDIT"),
+    ".meshb": ("medit", "MEDIT"),
+    ".msh": ("gmsh", "Gmsh"),
+    ".vtk": ("vtk", "VTK"),
+    ".vtu": ("vtu", "VTU"),
+}
+"""Ending -> module of meshio, name for people."""
+
+FLAT_CELLS = ("triangle", "quad", "polygon")
+IGNORED_CELLS = ("vertex", "line", "line3")
+
+
+def read_foreign(path: Path) -> tuple[Mesh, tuple[str, ...]]:
+    """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes."""
+    module, name = FORMATS[path.suffix.lower()]
+    with silenced(), np.errstate(all="ignore"):
+        try:
+            content = importlib.import_module(f"meshio.{module}").read(str(path))
+            points = np.asarray(content.points)
+            blocks = [(str(block.type), block.data) for block in content.cells]
+        except (Exception, SystemExit):
+            content = None
+    if content is None:
+        raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
+    if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
+        raise MeshError(f"{path}: there are no vertices in it.")
+    kinds = {kind for kind, data in blocks if len(data)}
+    _refuse_unknown(path, kinds)
+    if "tetra" in kinds:
+        simplices = np.concatenate([_table(path, data) for kind, data in blocks if kind == "tetra" and len(data)])
+        left_out = sorted(kinds & {*FLAT_CELLS, "wedge", "pyramid", "hexahedron"})
+        notes = (f"Only the tetrahedra were taken; left out: {', '.join(left_out)}.",) if left_out else ()
+        return mesh_of_file(path, points, simplices), notes
+    return _surface(path, name, points, [(kind, data) for kind, data in blocks if kind in FLAT_CELLS and len(data)])
+
+
+@contextlib.contextmanager
+def silenced() -> Any:
+    """Nothing that runs inside reaches the console, warnings included."""
+    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+        warnings.simplefilter("ignore")
+        with contextlib.redirect_stderr(io.StringIO()):
+            yield
+
+
+def _refuse_unknown(path: Path, kinds: set[str]) -> None:
+    known = {*FLAT_CELLS, *IGNORED_CELLS, "tetra"}
+    higher = sorted(kind for kind in kinds - known if kind.rstrip("0123456789") in ("triangle", "quad", "tetra"))
+    if higher:
+        raise MeshError(
+            f"{path}: it holds elements of higher order ({', '.join(higher)}), and maps here are linear on each simplex; "
+            f"export the mesh with linear elements (order 1)."
+        )
+    if "tetra" not in kinds and not kinds & set(FLAT_CELLS):
+        found = ", ".join(sorted(kinds)) or "none"
+        raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}).")
+    solid = sorted(kinds - known)
+    if solid:
+        raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are mapped; split them.")
+
+
+def _surface(path: Path, name: str, points: Any, blocks: list[tuple[str, Any]]) -> tuple[Mesh, tuple[str, ...]]:
+    faces: list[list[int]] = []
+    tables = []
+    for _, data in blocks:
+        if isinstance(data, np.ndarray) and data.ndim == 2:
+            tables.append(_table(path, data))
+        else:
+            faces += [np.asarray(face, dtype=np.int64).tolist() for face in data]
+    sizes = np.concatenate([np.full(len(table), table.shape[1]) for table in tables] + [[len(f) for f in faces]])
+    sizes = sizes.astype(np.int64)
+    corners = np.concatenate([table.ravel() for table in tables] + [np.array(f, dtype=np.int64) for f in faces])
+    if sizes.min() < 3:
+        raise MeshError(f"{path}: a face has fewer than three corners; the file is damaged.")
+    triangles_of, polygons = fan(sizes)
+    triangles = corners[triangles_of]
+    notes: tuple[str, ...] = ()
+    if name == "STL":
+        points, triangles = _merged(points, triangles)
+        notes = ("Vertices at the same place were merged.",)
+    fanned = polygons if sizes.max() > 3 else None
+    if fanned is not None:
+        notes = (*notes, f"{int((sizes > 3).sum())} polygons were fanned into triangles.")
+    return mesh_of_file(path, points, triangles, polygons=fanned), notes
+
+
+def _table(path: Path, data: Any) -> Integers:
+    table = np.asarray(data)
+    if table.ndim != 2 or table.dtype.kind not in "iu":
+        raise MeshError(f"{path}: the table of its elements is damaged.")
+    return table.astype(np.int64)
+
+
+def _merged(points: Any, triangles: Integers) -> tuple[Any, Integers]:
+    """Equal vertices as one, in the order in which the triangles first name them."""
+    _, first, number = np.unique(points[triangles.ravel()], axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    return points[triangles.ravel()[first[order]]], rank[number.reshape(-1)].reshape(triangles.shape)
