@@ -31,7 +31,7 @@ class CaseParts:
 
 
 def read_npz(path: Path, data: bytes) -> CaseParts:
-    """`V` (n, 2|3), `S` (m, 3|4) from 0 and, where they are there, `X0`, `X`, `anchors` and `targets`; never pickles."""
+    """`V` (n, 2|3), `S` (m, 3|4) from 0 and, where they are there, `X0`, `X`, `anchors`, `targets`; never pickles."""
     arrays = npz_arrays(path, data)
     for name in ("V", "S"):
         if name not in arrays:
@@ -110,7 +110,7 @@ def _anchors(path: Path, mesh: Mesh, arrays: dict[str, Any]) -> tuple[Integers |
     vertices = whole_numbers(path, "anchors", np.ravel(arrays["anchors"]))
     given = np.asarray(arrays["targets"])
     targets = finite_rows(path, "targets", given.reshape(0, 2) if not given.size else given, len(vertices), (2, 3))
-    if len(vertices) and not (0 <= vertices.min() and vertices.max() < mesh.vertex_count):
+    if len(vertices) and (vertices.min() < 0 or vertices.max() >= mesh.vertex_count):
         bad = int(vertices[(vertices < 0) | (vertices >= mesh.vertex_count)][0])
         raise MeshError(f"{path}: anchors name vertex {bad} (from 0), but the mesh has {mesh.vertex_count} vertices.")
     if len(np.unique(vertices)) != len(vertices):

@@ -74,7 +74,7 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
     higher = sorted(kind for kind in kinds - known if kind.rstrip("0123456789") in ("triangle", "quad", "tetra"))
     if higher:
         raise MeshError(
-            f"{path}: it holds elements of higher order ({', '.join(higher)}), and maps here are linear on each simplex; "
+            f"{path}: it holds elements of higher order ({', '.join(higher)}), and maps are linear on each simplex; "
             f"export the mesh with linear elements (order 1)."
         )
     if "tetra" not in kinds and not kinds & set(FLAT_CELLS):
@@ -82,7 +82,7 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
         raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}).")
     solid = sorted(kinds - known)
     if solid:
-        raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are mapped; split them.")
+        raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")
 
 
 def _surface(path: Path, name: str, points: Any, blocks: list[tuple[str, Any]]) -> tuple[Mesh, tuple[str, ...]]:

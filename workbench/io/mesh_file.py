@@ -73,7 +73,7 @@ def check_range(path: Path, vertices: Floats) -> None:
             f"mend it, or scale the mesh."
         )
     if not float(np.ptp(vertices, axis=0).max()) > SMALLEST_DIAMETER:
-        raise MeshError(f"{path}: all vertices are at the same place (to {SMALLEST_DIAMETER:g}); scale or mend the mesh.")
+        raise MeshError(f"{path}: all vertices are at the same place (to {SMALLEST_DIAMETER:g}); scale or mend it.")
 
 
 def finite_rows(path: Path, name: str, values: object, rows: int | None, columns: tuple[int, ...]) -> Floats:
@@ -98,6 +98,6 @@ def whole_numbers(path: Path, name: str, values: object) -> Integers:
         raise MeshError(f"{path}: the array {name} does not hold numbers.")
     if array.dtype.kind == "f" and not (np.isfinite(array).all() and (array == np.round(array)).all()):
         raise MeshError(f"{path}: the array {name} holds numbers that are not whole; indices are needed.")
-    if array.size and not (-(2**62) < float(array.min()) and float(array.max()) < 2**62):
+    if array.size and float(np.abs(array.astype(np.float64)).max()) >= 2**62:
         raise MeshError(f"{path}: the array {name} holds indices that are too large.")
     return frozen(array, np.int64)

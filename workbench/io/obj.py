@@ -41,7 +41,7 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
     if not found.vertices:
         raise MeshError(f"{path}: there is no vertex (a line 'v x y z') in it; it is not an OBJ file, or an empty one.")
     if not found.faces:
-        raise MeshError(f"{path}: it has {len(found.vertices)} vertices but no face (a line 'f a b c'); is it cut short?")
+        raise MeshError(f"{path}: it has {len(found.vertices)} vertices and no face ('f a b c'); is it cut short?")
     vertices = _vertex_table(path, found)
     sizes = np.array([len(face) for face in found.faces], dtype=np.int64)
     if sizes.min() < 3:
@@ -124,7 +124,7 @@ def _numbers(path: Path, rows: list[list[str]], lines: list[int]) -> Floats:
 
 
 def _corner_tables(path: Path, found: _Statements, sizes: Integers) -> tuple[Integers, Integers]:
-    """Vertex and texture coordinate of each corner of each face, from 0, both (c,) int64; -1 where it has no texture."""
+    """Vertex and texture coordinate of each corner of each face, from 0, both (c,) int64; -1 for no texture."""
     tokens = list(chain.from_iterable(found.faces))
     try:
         if any("/" in token for token in tokens):

@@ -33,8 +33,8 @@ def read_off(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
         raise MeshError(f"{path}: the numbers of vertices and faces are missing after OFF; is it cut short?") from None
     if vertex_count < 1 or face_count < 1 or len(rows) < at + vertex_count + face_count:
         raise MeshError(
-            f"{path}: it promises {vertex_count} vertices and {face_count} faces, but has {max(len(rows) - at, 0)} lines "
-            f"of them; it is empty or cut short."
+            f"{path}: it promises {vertex_count} vertices and {face_count} faces, but has {max(len(rows) - at, 0)} "
+            f"lines of them; it is empty or cut short."
         )
     vertex_rows = rows[at : at + vertex_count]
     face_rows = rows[at + vertex_count : at + vertex_count + face_count]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from workbench.core.arrays import Integers
@@ -43,7 +45,7 @@ def unfan(triangles: Integers, polygons: Integers | None) -> list[list[int]]:
         return rows
     bounds = [0, *(np.flatnonzero(np.diff(polygons)) + 1).tolist(), len(rows)]
     faces: list[list[int]] = []
-    for begin, end in zip(bounds[:-1], bounds[1:], strict=True):
+    for begin, end in pairwise(bounds):
         part = rows[begin:end]
         face = _fan_of(part) or _reversed_fan_of(part)
         faces += [face] if face else part

@@ -1,0 +1,149 @@
+"""Writing a map: OBJ, npz case, VTU with fields, CSV of the fields."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.errors import WorkbenchError
+from workbench.core.mesh import Mesh
+from workbench.core.method import Kind
+from workbench.core.plane_frame import into_plane_of
+from workbench.io.atomic import replacing, write_text
+from workbench.io.foreign import silenced
+from workbench.io.polygons import unfan
+
+WRITABLE = (".obj", ".npz", ".vtu", ".csv")
+"""Endings of the files that can be written."""
+
+
+def write_map(
+    path: str | os.PathLike[str],
+    file_mesh: Mesh,
+    source_mesh: Mesh,
+    positions: ArrayLike,
+    kind: Kind,
+    *,
+    fields: Mapping[str, ArrayLike] | None = None,
+    anchor_vertices: ArrayLike | None = None,
+    anchor_targets: ArrayLike | None = None,
+) -> None:
+    """Writes a map in the format of the ending of `path`; the file is whole or not there.
+
+    OBJ: for parameterize the vertices and faces of the file as they were, polygons too, and the map as `vt`; for
+    plane and volume the map as `v` (in the plane of the file where that was a plane in space). npz: `V S X anchors
+    targets`. VTU: the map, with `fields` on the simplices. CSV: a row a simplex, a column a field.
+    Numbers have 17 significant digits: they read back to the same values.
+
+    Parameters
+    ----------
+    file_mesh : Mesh               as read
+    source_mesh : Mesh             as solved on, after fixes: where these dropped simplices, what was kept is written
+    positions : (n, d) float64     of the vertices of `source_mesh`
+    fields : name -> (m,)          numbers a simplex, for VTU and CSV
+    anchor_vertices, anchor_targets : (k,) int64, (k, d) float64     for npz
+
+    Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
+    """
+    ending = Path(path).suffix.lower()
+    positions = np.asarray(positions, dtype=np.float64)
+    columns = {name: np.asarray(values, dtype=np.float64) for name, values in (fields or {}).items()}
+    if ending == ".obj":
+        write_text(path, obj_text(file_mesh, source_mesh, positions, kind))
+    elif ending == ".npz":
+        _write_npz(path, source_mesh, positions, anchor_vertices, anchor_targets)
+    elif ending == ".vtu":
+        _write_vtu(path, source_mesh, positions, columns)
+    elif ending == ".csv":
+        write_text(path, _csv_text(source_mesh.simplex_count, columns))
+    else:
+        raise WorkbenchError(
+            f"{path}: maps are written as {', '.join(WRITABLE)}; the ending {ending or '(none)'} is not one of them."
+        )
+
+
+def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
+    """Writes a mesh alone, as OBJ (tetrahedra as faces of four corners)."""
+    faces = unfan(mesh.simplices, mesh.polygons) if mesh.dimension == 2 else mesh.simplices.tolist()
+    write_text(path, _rows("v", _in_space(mesh.vertices)) + _faces(faces, str))
+
+
+def obj_text(file_mesh: Mesh, source_mesh: Mesh, positions: Floats, kind: Kind) -> str:
+    """The OBJ file of a map; see `write_map`."""
+    if kind == "volume":
+        return _rows("v", positions) + _faces(source_mesh.simplices.tolist(), str)
+    faces = unfan(source_mesh.simplices, source_mesh.polygons)
+    if kind == "plane":
+        return _rows("v", _plane_points(file_mesh, source_mesh, positions)) + _faces(faces, str)
+    if source_mesh.vertex_origin is None:
+        kept, vertex = file_mesh.vertices, np.arange(1, source_mesh.vertex_count + 1)
+    else:
+        used, number = np.unique(source_mesh.vertex_origin, return_inverse=True)
+        kept, vertex = file_mesh.vertices[used], number.reshape(-1) + 1
+    corner = [f"{v}/{t}" for t, v in enumerate(vertex.tolist(), start=1)]
+    return _rows("v", _in_space(kept)) + _rows("vt", positions) + _faces(faces, lambda t: corner[t - 1])
+
+
+def _plane_points(file_mesh: Mesh, source_mesh: Mesh, positions: Floats) -> Floats:
+    if file_mesh.vertices.shape[1] == 2:
+        return _in_space(positions)
+    origin = source_mesh.vertex_origin
+    space = file_mesh.vertices if origin is None else file_mesh.vertices[origin]
+    return into_plane_of(space, source_mesh.vertices, positions)
+
+
+def _in_space(points: Floats) -> Floats:
+    return points if points.shape[1] == 3 else np.column_stack([points, np.zeros(len(points))])
+
+
+def _rows(keyword: str, table: Floats) -> str:
+    row = keyword + " %.17g" * table.shape[1] + "\n"
+    return (row * len(table)) % tuple(table.ravel().tolist())
+
+
+def _faces(faces: list[list[int]], corner: Callable[[int], str]) -> str:
+    return "".join(chain.from_iterable(("f ", " ".join([corner(v + 1) for v in face]), "\n") for face in faces))
+
+
+def _write_npz(
+    path: str | os.PathLike[str], mesh: Mesh, positions: Floats, vertices: ArrayLike | None, targets: ArrayLike | None
+) -> None:
+    anchors: Integers = np.asarray([] if vertices is None else vertices, dtype=np.int64)
+    targets = np.asarray([] if targets is None else targets, dtype=np.float64).reshape(len(anchors), -1)
+    arrays: dict[str, Any] = {
+        "V": mesh.vertices,
+        "S": mesh.simplices,
+        "X": positions,
+        "anchors": anchors,
+        "targets": targets if len(anchors) else np.empty((0, positions.shape[1])),
+    }
+    with replacing(path) as part, part.open("wb") as stream:
+        np.savez_compressed(stream, allow_pickle=False, **arrays)
+
+
+def _write_vtu(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
+    cells = [("triangle" if mesh.dimension == 2 else "tetra", mesh.simplices)]
+    with replacing(path) as part, silenced():
+        import meshio
+
+        content = meshio.Mesh(
+            _in_space(positions),
+            cells,
+            point_data={"source": _in_space(mesh.vertices)},
+            cell_data={name: [values] for name, values in columns.items()},
+        )
+        meshio.vtu.write(str(part), content)
+
+
+def _csv_text(simplex_count: int, columns: dict[str, Any]) -> str:
+    header = ",".join(["simplex", *columns]) + "\n"
+    table = np.column_stack([np.arange(simplex_count), *columns.values()])
+    row = "%d" + ",%.17g" * len(columns) + "\n"
+    return header + (row * simplex_count) % tuple(table.ravel().tolist())
