@@ -1,8 +1,8 @@
-"""Convex combination maps of a disc: boundary on a convex curve, every inner vertex at a weighted mean of its neighbours.
+"""Convex combination maps of a disc: boundary on a convex curve, inner vertices at weighted means of their neighbours.
 
-With positive weights no triangle is inverted (Tutte 1963, Floater 2003), but only in exact arithmetic: what is thin and long,
-such as a finger, shrinks exponentially in its length and falls below rounding. Then the weights are changed, still positive,
-so that what has shrunk takes up more room.
+With positive weights no triangle is inverted (Tutte 1963, Floater 2003), but only in exact arithmetic: what is thin
+and long, such as a finger, shrinks exponentially in its length and falls below rounding. Then the weights are changed,
+still positive, so that what has shrunk takes up more room.
 """
 
 from __future__ import annotations
@@ -51,7 +51,10 @@ def uniform_weights(mesh: Mesh) -> Floats:
 
 
 def cotangent_weights(mesh: Mesh) -> Floats:
-    """(m, 3): half the cotangent of each corner; negative for obtuse ones. Their Laplacian is the discrete Dirichlet energy."""
+    """(m, 3): half the cotangent of each corner, negative for obtuse ones.
+
+    Their Laplacian is the matrix of the discrete Dirichlet energy.
+    """
     points = mesh.vertices[mesh.simplices]
     weights = np.empty((mesh.simplex_count, 3))
     for corner in range(3):
@@ -108,7 +111,7 @@ def map_disc(mesh: Mesh, weights: Floats, shape: BoundaryShape, repair: bool) ->
 
 
 def mean_symmetric_dirichlet(elements: Elements, positions: Floats) -> float:
-    """Area-weighted mean of (32) after scaling to the area of the source; inf where a simplex is inverted or degenerate."""
+    """Area-weighted mean of (32) after scaling to the area of the source; inf where a simplex is inverted."""
     sigma = signed_singular_values(elements, positions)
     total = elements.rest_measures.sum()
     if not (sigma[:, -1] > 0).all():

@@ -15,9 +15,9 @@ _REFINEMENTS = 2
 
 
 class DefiniteFactor:
-    """Cholesky factor of a symmetric positive definite matrix (CHOLMOD with minimum degree; SuperLU where cvxopt is missing).
+    """Cholesky factor of a symmetric positive definite matrix: CHOLMOD, or SuperLU where cvxopt is missing.
 
-    The matrix is scaled to a unit diagonal first, and every solution is refined, so that rows of very different size do no harm.
+    The matrix is scaled to a unit diagonal first, and every solution is refined: rows may differ very much in size.
 
     Parameters
     ----------

@@ -22,14 +22,22 @@ _BULGE = 0.1
 def disc_boundary(mesh: Mesh) -> Integers:
     """Boundary loop (k,) of a disc, in the sense of its triangles. Raises `MeshError` where the mesh is no disc."""
     topology = mesh.topology
-    if mesh.dimension != 2 or not topology.is_disc or not topology.is_consistently_oriented:
-        loops = len(topology.boundary_loops)
-        raise MeshError(
-            f"This start needs a disc: one consistently oriented component with one boundary loop; the mesh has "
-            f"{topology.component_count} component(s) and {loops} boundary loop(s). Choose another start, or fix the mesh.",
-            fixes=("reorient", "largest", "cut"),
-        )
-    return topology.boundary_loops[0]
+    if topology.is_disc and topology.is_consistently_oriented and mesh.dimension == 2:
+        return topology.boundary_loops[0]
+    if mesh.dimension != 2:
+        raise MeshError("This start needs triangles, and the mesh has tetrahedra; choose the start rest.")
+    fixes: tuple[str, ...]
+    if not topology.is_consistently_oriented:
+        found, fixes = "its triangles are not oriented alike", ("reorient",)
+    elif topology.component_count > 1:
+        found, fixes = f"it has {topology.component_count} components", ("largest",)
+    elif not topology.is_manifold:
+        found, fixes = "it is not a manifold", ()
+    else:
+        found, fixes = f"it has {len(topology.boundary_loops)} boundary loops and genus {topology.genus}", ("cut",)
+    raise MeshError(
+        f"This start needs a disc, but the mesh is none: {found}. Choose another start, or fix the mesh.", fixes=fixes
+    )
 
 
 def convex_outline(mesh: Mesh, loop: Integers, shape: BoundaryShape) -> Floats:

@@ -71,7 +71,7 @@ def upright(mesh: Mesh) -> Mesh:
 
 
 def match_source_frame(mesh: Mesh, positions: Floats) -> Floats:
-    """`positions` (n, 2) turned, and moved, to lie best on a source in the plane; as they are for a surface in space."""
+    """`positions` (n, 2) turned to lie best on a source in the plane; as they are for a surface in space."""
     if mesh.vertices.shape[1] == 3:
         return positions
     rest = mesh.vertices - mesh.vertices.mean(axis=0)

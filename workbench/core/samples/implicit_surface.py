@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 
 import numpy as np
 
-from workbench.core.arrays import Floats, Integers
+from workbench.core.arrays import Booleans, Floats, Integers
 
 Implicit = Callable[[Floats], Floats]
 """(k, 3) points -> (k,) values, negative inside, of slope about one near the surface."""
@@ -25,14 +26,11 @@ def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: f
     axes.append(np.arange(-0.5 * spacing, high[2] + spacing, spacing))
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     value = implicit(grid.reshape(-1, 3)).reshape(grid.shape[:3])
-    inside = value < 0
+    inside = _without_ambiguous_faces(value < 0)
     cells = np.array(inside.shape) - 1
-    corner_sum = sum(
-        inside[i : i + cells[0], j : j + cells[1], k : k + cells[2]].astype(np.int64)
-        for i in (0, 1)
-        for j in (0, 1)
-        for k in (0, 1)
-    )
+    corner_sum = np.zeros(cells, dtype=np.int64)
+    for i, j, k in product((0, 1), repeat=3):
+        corner_sum += inside[i : i + cells[0], j : j + cells[1], k : k + cells[2]]
     crossed = (corner_sum > 0) & (corner_sum < 8)
     index = np.full(crossed.shape, -1, dtype=np.int64)
     index[crossed] = np.arange(crossed.sum())
@@ -64,6 +62,23 @@ def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: f
     return vertices, _split(vertices, quad)
 
 
+def _without_ambiguous_faces(inside: Booleans) -> Booleans:
+    """Grid points filled in until no grid face has its inner points on one diagonal only: two sheets would touch."""
+    for _ in range(10):
+        found = False
+        for axis in range(3):
+            planes = np.moveaxis(inside, axis, 0)  # a view: writing to it writes to `inside`
+            a, b, c, d = planes[:, :-1, :-1], planes[:, :-1, 1:], planes[:, 1:, :-1], planes[:, 1:, 1:]
+            fill_b = a & d & ~b & ~c
+            fill_a = b & c & ~a & ~d
+            found = found or bool(fill_a.any() or fill_b.any())
+            b |= fill_b
+            a |= fill_a
+        if not found:
+            break
+    return inside
+
+
 def _relaxed(implicit: Implicit, vertices: Floats, quads: Integers, spacing: float) -> Floats:
     """Vertices moved to the mean of their neighbours and back onto the surface; those on z = 0 stay on it."""
     edges = np.vstack([quads[:, [i, (i + 1) % 4]] for i in range(4)])
@@ -89,7 +104,7 @@ def _neighbour_sum(vertices: Floats, edges: Integers) -> Floats:
     return total
 
 
-def _project(implicit: Implicit, points: Floats, rim: np.ndarray) -> Floats:
+def _project(implicit: Implicit, points: Floats, rim: Booleans) -> Floats:
     step = 1e-5
     points[rim, 2] = 0.0
     moves = np.vstack([np.zeros((1, 3)), step * np.eye(3)])

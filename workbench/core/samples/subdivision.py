@@ -62,5 +62,5 @@ def _kuhn_simplex(dimension: int, parts: int) -> tuple[Integers, Integers]:
 
 
 def _parity(order: Integers) -> int:
-    order = list(order)
-    return -1 if sum(order[i] > order[j] for i in range(len(order)) for j in range(i + 1, len(order))) % 2 else 1
+    inversions = sum(int(order[i] > order[j]) for i in range(len(order)) for j in range(i + 1, len(order)))
+    return -1 if inversions % 2 else 1
