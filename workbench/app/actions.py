@@ -1,0 +1,74 @@
+"""Everything that menus, buttons and keys can do, named once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QAction, QKeySequence
+
+from workbench.app.icons import DRAWINGS, icon
+from workbench.app.theme import Theme
+
+
+@dataclass(frozen=True)
+class ActionText:
+    """Words, keys and tip of one action; `picture` names an icon."""
+
+    text: str
+    keys: tuple[str, ...] = ()
+    tip: str = ""
+    picture: str = ""
+    checkable: bool = False
+
+
+TEXTS: dict[str, ActionText] = {
+    "open": ActionText("&Open…", ("Ctrl+O",), "Open a mesh or a case", "open"),
+    "save": ActionText("&Save map…", ("Ctrl+S",), "Save the map as OBJ, npz or VTU", "save"),
+    "shot-source": ActionText("Screenshot of the source…"),
+    "shot-target": ActionText("Screenshot of the target…"),
+    "shot-window": ActionText("Screenshot of the window…", ("Ctrl+Shift+S",)),
+    "quit": ActionText("&Quit", ("Ctrl+Q",)),
+    "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),
+    "remove": ActionText("&Remove selected anchor", ("Del", "Backspace")),
+    "clear": ActionText("&Clear anchors", ("Ctrl+Shift+A",), "Remove all anchors", "clear"),
+    "run": ActionText("Run", ("Space",), "Run or pause the solver (Space)", "run"),
+    "step": ActionText("Step", (".",), "Take one iteration (.)", "step"),
+    "reset": ActionText("Reset", ("Home",), "Make the start anew (Home)", "reset"),
+    "stop": ActionText("Stop", ("Ctrl+.",), "End whatever the engine does, also what hangs; the last good map stays (Ctrl+.)", "stop"),
+    "fit": ActionText("&Fit views", ("F",), "Show everything in every view (F)", "fit"),
+    "edges": ActionText("Show &edges", ("E",), checkable=True),
+    "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),
+    "shortcuts": ActionText("&Mouse and keys", ("F1",)),
+    "report": ActionText("&Report on the mesh"),
+    "about": ActionText("&About"),
+}
+
+
+def make_actions(parent: QObject, theme: Theme) -> dict[str, QAction]:
+    """One `QAction` for each text; whoever wants one connects to `triggered`."""
+    actions = {}
+    for name, text in TEXTS.items():
+        action = QAction(text.text, parent)
+        action.setObjectName(name)
+        action.setShortcuts([QKeySequence(key) for key in text.keys])
+        action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+        action.setCheckable(text.checkable)
+        if text.tip:
+            action.setToolTip(text.tip)
+            action.setStatusTip("")
+        actions[name] = action
+    set_icons(actions, theme)
+    return actions
+
+
+def set_icons(actions: dict[str, QAction], theme: Theme) -> None:
+    for name, text in TEXTS.items():
+        if text.picture in DRAWINGS:
+            actions[name].setIcon(icon(text.picture, theme))
+
+
+def show_running(action: QAction, is_running: bool, theme: Theme) -> None:
+    """Turn Run into Pause and back."""
+    action.setText("Pause" if is_running else "Run")
+    action.setIcon(icon("pause" if is_running else "run", theme))

@@ -1,0 +1,48 @@
+"""One function on a thread of its own, its result in the GUI thread."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import QObject, Qt, Signal
+
+
+class Background(QObject):
+    """Runs `work` once; `finished` carries what it returned, `failed` the exception."""
+
+    finished = Signal(object)
+    failed = Signal(object)
+    _arrived = Signal(object, object)
+
+    def __init__(self, work: Callable[[], Any], parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._work = work
+        self._arrived.connect(self._report, Qt.ConnectionType.QueuedConnection)
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def wait(self, seconds: float = 10.0) -> None:
+        if self._thread.is_alive():
+            self._thread.join(seconds)
+
+    def _run(self) -> None:
+        result: Any = None
+        error: Exception | None = None
+        try:
+            result = self._work()
+        except Exception as caught:  # nobody above a thread: the window shows it
+            error = caught
+        try:
+            self._arrived.emit(result, error)
+        except RuntimeError:
+            pass  # the window was closed meanwhile
+
+    def _report(self, result: Any, error: Exception | None) -> None:
+        if error is None:
+            self.finished.emit(result)
+        else:
+            self.failed.emit(error)

@@ -1,0 +1,187 @@
+"""What the actions do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+
+from workbench.app.background import Background
+from workbench.app.help_texts import ABOUT, SHORTCUTS
+from workbench.app.saving import FILTERS, Saver, SaveRequest
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+MESH_FILTERS = (
+    "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
+)
+
+
+class Commands(QObject):
+    """Connects every action to its deed; dialogs open without stopping the event loop."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document = window.document
+        self.saver = Saver()
+        self.saver.saved.connect(lambda path: window.status.say(f"Saved {path}."))
+        self.saver.failed.connect(lambda sentence: window.error_bar.show_message(sentence))
+        self._boundary_search: Background | None = None
+        document = window.document
+        deeds: dict[str, Any] = {
+            "open": self.ask_open,
+            "save": self.ask_save,
+            "shot-source": lambda: self.ask_screenshot(window.source.view, "source"),
+            "shot-target": lambda: self.ask_screenshot(window.target.view, "target"),
+            "shot-window": lambda: self.ask_screenshot(window, "window"),
+            "quit": window.close,
+            "pin": self.pin_boundary,
+            "remove": lambda: document.remove_anchor(document.selected),
+            "clear": document.clear_anchors,
+            "run": document.toggle,
+            "step": document.step,
+            "reset": document.reset,
+            "stop": document.stop,
+            "fit": self.fit,
+            "edges": self.show_edges,
+            "lock": self.hold_ranges,
+            "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
+            "report": self.show_report,
+            "about": lambda: self._tell("About", ABOUT),
+        }
+        for name, deed in deeds.items():
+            window.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
+
+    def wait(self) -> None:
+        """Let threads end before the window does."""
+        self.saver.wait()
+        if self._boundary_search is not None:
+            self._boundary_search.wait()
+
+    # ------------------------------------------------------------------------------------------ files
+
+    def ask_open(self) -> None:
+        dialog = QFileDialog(self._window, "Open a mesh or a case", self._window.settings.folder, MESH_FILTERS)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        self._ask(dialog, self._open_file)
+
+    def _open_file(self, path: str) -> None:
+        self._window.settings.folder = str(Path(path).parent)
+        self._window.open(path)
+
+    def ask_save(self) -> None:
+        name = Path(self._document.session.source.replace("sample:", "")).stem + "-map.obj"
+        dialog = QFileDialog(self._window, "Save the map", str(Path(self._window.settings.folder) / name), FILTERS)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("obj")
+        self._ask(dialog, self.save_map)
+
+    def save_map(self, path: str) -> None:
+        """Write the map as it is now; the window goes on meanwhile."""
+        document = self._document
+        if document.loaded is None or document.snapshot is None:
+            return
+        self._window.settings.folder = str(Path(path).parent)
+        anchors = document.anchors
+        dimension = document.snapshot.positions.shape[1]
+        self.saver.save(
+            SaveRequest(
+                Path(path),
+                document.session,
+                document.loaded,
+                document.snapshot,
+                anchors.vertices,
+                anchors.target_array(dimension),
+            )
+        )
+
+    def ask_screenshot(self, widget: QWidget, name: str) -> None:
+        folder = Path(self._window.settings.folder)
+        dialog = QFileDialog(self._window, f"Screenshot of the {name}", str(folder / f"{name}.png"), "PNG (*.png)")
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("png")
+        self._ask(dialog, lambda path: self.save_screenshot(widget, path))
+
+    def save_screenshot(self, widget: QWidget, path: str) -> None:
+        """Write a picture of a widget with all that is in it."""
+        if not widget.grab().save(path):
+            self._window.error_bar.show_message(f"The picture could not be written to {path}; choose another folder.")
+        else:
+            self._window.status.say(f"Saved {path}.")
+
+    def _ask(self, dialog: QFileDialog, deed: Any) -> None:
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(deed)
+        dialog.open()
+
+    # ------------------------------------------------------------------------------------------ anchors
+
+    def pin_boundary(self) -> None:
+        """Anchors at all boundary vertices; the boundary is found on a thread, once a mesh."""
+        mesh, generation = self._document.mesh, self._document.generation
+        if mesh is None or (self._boundary_search is not None):
+            return
+
+        def pin(vertices: Any) -> None:
+            self._boundary_search = None
+            if self._document.generation == generation:
+                if not len(vertices):
+                    self._window.status.say("This mesh has no boundary.")
+                self._document.pin(vertices)
+
+        def fail(error: Exception) -> None:
+            self._boundary_search = None
+            self._window.reporter.show_exception(error)
+
+        self._boundary_search = Background(lambda: boundary_vertices(mesh.simplices), self)
+        self._boundary_search.finished.connect(pin)
+        self._boundary_search.failed.connect(fail)
+        self._boundary_search.start()
+
+    # ------------------------------------------------------------------------------------------ view
+
+    def fit(self) -> None:
+        self._window.source.view.fit()
+        self._window.presenter.refit_target()
+
+    def show_edges(self) -> None:
+        visible = self._window.actions_by_name["edges"].isChecked()
+        for view in (self._window.source.view, self._window.target.view):
+            if view.surface is not None:
+                view.surface.set_edges(visible)
+                view.refresh()
+
+    def hold_ranges(self) -> None:
+        for colour_range in self._window.ranges.values():
+            colour_range.is_locked = self._window.actions_by_name["lock"].isChecked()
+
+    def choose_theme(self, choice: str) -> None:
+        self._window.settings.theme = choice
+        self._window.theme_switch.choose(choice)
+
+    # ------------------------------------------------------------------------------------------ help
+
+    def show_report(self) -> None:
+        loaded = self._document.loaded
+        lines = loaded.lines if loaded is not None else ("No mesh is open.",)
+        self._tell("Report on the mesh", "<p>" + "<br>".join(line.replace("<", "&lt;") for line in lines) + "</p>")
+
+    def _tell(self, title: str, text: str) -> None:
+        box = QMessageBox(self._window)
+        box.setWindowTitle(title)
+        box.setTextFormat(Qt.TextFormat.RichText)
+        box.setText(text)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+
+def boundary_vertices(triangles: Any) -> Any:
+    """Vertices (k,) of the edges that belong to one triangle only."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    unique, counts = np.unique(edges, axis=0, return_counts=True)
+    return np.unique(unique[counts == 1])

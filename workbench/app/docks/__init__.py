@@ -1,0 +1,1 @@
+"""Docks that show a running map: colour maps, histogram, convergence."""

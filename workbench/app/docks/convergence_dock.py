@@ -1,0 +1,85 @@
+"""Live convergence curves: energy, gradient norm, inverted count, over iterations or seconds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from workbench.app.history import History
+from workbench.app.theme import Theme
+
+CURVES = (("energy", "Energy"), ("gradient_norm", "Gradient norm"), ("inverted", "Inverted simplices"))
+
+
+class ConvergenceDock(QDockWidget):
+    """Three plots side by side with one abscissa; each is one standing curve."""
+
+    def __init__(self, history: History, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__("Convergence", parent)
+        self.setObjectName("convergence")
+        self._history = history
+        body = QWidget(self)
+        layout = QVBoxLayout(body)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        bar = QHBoxLayout()
+        bar.setContentsMargins(8, 3, 8, 3)
+        self.abscissa = QComboBox(body)
+        self.abscissa.addItem("iterations", "iteration")
+        self.abscissa.addItem("seconds", "seconds")
+        self.abscissa.currentIndexChanged.connect(lambda _: self.refresh())
+        self.logarithmic = QCheckBox("logarithmic", body)
+        self.logarithmic.setChecked(True)
+        self.logarithmic.toggled.connect(self._set_logarithmic)
+        bar.addWidget(QLabel("over", body))
+        bar.addWidget(self.abscissa)
+        bar.addWidget(self.logarithmic)
+        bar.addStretch(1)
+        layout.addLayout(bar)
+        self.graphics = pg.GraphicsLayoutWidget(body)
+        self.graphics.setMinimumSize(240, 110)
+        self.graphics.ci.layout.setContentsMargins(2, 2, 8, 2)
+        self.graphics.ci.layout.setHorizontalSpacing(6)
+        layout.addWidget(self.graphics, 1)
+        self.setWidget(body)
+        self._plots: list[pg.PlotItem] = []
+        self.curves: list[pg.PlotDataItem] = []
+        for column, (_, title) in enumerate(CURVES):
+            plot = self.graphics.addPlot(row=0, col=column, title=title)
+            plot.setMenuEnabled(False)
+            plot.hideButtons()
+            plot.setMouseEnabled(False, False)
+            plot.showGrid(x=False, y=True, alpha=0.2)
+            curve = plot.plot([], [])
+            curve.setDownsampling(auto=True, method="peak")
+            curve.setClipToView(True)
+            self._plots.append(plot)
+            self.curves.append(curve)
+        self._set_logarithmic(True)
+        self.set_theme(theme)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.graphics.setBackground(theme.view)
+        for plot, curve, colour, (_, title) in zip(self._plots, self.curves, theme.curves, CURVES, strict=True):
+            curve.setPen(pg.mkPen(colour, width=1.6))
+            plot.setTitle(title, color=theme.text, size="9pt")
+            for side in ("bottom", "left"):
+                plot.getAxis(side).setPen(theme.faint)
+                plot.getAxis(side).setTextPen(theme.text)
+
+    def _set_logarithmic(self, wanted: bool) -> None:
+        # a count may be 0 and has no logarithm
+        for plot in self._plots[:2]:
+            plot.setLogMode(x=False, y=wanted)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Draw what the history holds now."""
+        abscissa = self._history.column(self.abscissa.currentData())
+        for curve, (name, _) in zip(self.curves, CURVES, strict=True):
+            values = self._history.column(name)
+            good = np.isfinite(values)
+            if self.logarithmic.isChecked() and name != "inverted":
+                good &= values > 0
+            curve.setData(abscissa[good], values[good])

@@ -1,0 +1,348 @@
+"""What the window is about: the choices, the mesh, its anchors, the newest map. Changes become commands."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.anchor_set import AnchorSet
+from workbench.app.engine_bridge import EngineBridge
+from workbench.core.arrays import Floats, Integers
+from workbench.core.mesh import Mesh
+from workbench.engine.messages import (
+    Failure,
+    Load,
+    Loaded,
+    Pause,
+    Refused,
+    Reset,
+    Run,
+    SetAnchors,
+    SetProblem,
+    SetSolver,
+    Snapshot,
+    Step,
+)
+from workbench.session.session import Session
+
+SAMPLE = "sample:"
+PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions"}
+SOLVER_FIELDS = {"solver", "solver_parameters"}
+START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
+LOAD_FIELDS = {"source", "kind", "fixes"}
+
+
+class Document(QObject):
+    """Session, mesh and newest snapshot; the only one who posts commands.
+
+    Signals tell what changed; a view reads it from here. Nothing here draws.
+    """
+
+    session_changed = Signal()
+    opening = Signal(str)
+    opened = Signal()
+    closed = Signal()
+    anchors_changed = Signal()
+    selection_changed = Signal()
+    snapshot_taken = Signal()
+    history_restarted = Signal()
+    drag_sent = Signal(int, float)
+    refused = Signal(object)
+
+    def __init__(self, bridge: EngineBridge, session: Session | None = None) -> None:
+        super().__init__()
+        self._bridge = bridge
+        self.session = session or Session()
+        self.generation = 0
+        self.loaded: Loaded | None = None
+        self.snapshot: Snapshot | None = None
+        self.anchors = AnchorSet.none()
+        self.anchor_serial = 0
+        self.selected = -1
+        self.wants_to_run = False
+        self.opening_source = ""
+        self._wanted: Session | None = None
+        self._runs_after_open = False
+        self._is_opening = False
+        bridge.loaded.connect(self._take_loaded)
+        bridge.snapshot.connect(self._take_snapshot)
+        bridge.refused.connect(self._take_refused)
+        bridge.failure.connect(self._take_failure)
+
+    # ------------------------------------------------------------------------------------------ state
+
+    @property
+    def mesh(self) -> Mesh | None:
+        """The source; None while there is none, or where the window cannot show it."""
+        return self.loaded.mesh if self.loaded is not None else None
+
+    @property
+    def kind(self) -> str:
+        return self.loaded.kind if self.loaded is not None else ""
+
+    @property
+    def positions(self) -> Floats | None:
+        """The newest map (n, d)."""
+        return self.snapshot.positions if self.snapshot is not None else None
+
+    @property
+    def is_running(self) -> bool:
+        return self.wants_to_run
+
+    # ------------------------------------------------------------------------------------------ opening
+
+    def open(
+        self,
+        source: str,
+        *,
+        kind: str = "auto",
+        fixes: tuple[str, ...] = (),
+        run: bool = False,
+    ) -> None:
+        """Ask for a mesh; the present one stays until the new one is there. `run` starts the solver then."""
+        self.generation += 1
+        self.opening_source = source
+        self._wanted = replace(self.session, source=source, kind=kind, fixes=fixes)
+        self._runs_after_open = run
+        self._bridge.post(self._problem(self._wanted))
+        self._bridge.post(self._solver(self._wanted))
+        self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
+        self.opening.emit(source)
+
+    def open_sample(self, id: str, *, run: bool = True) -> None:
+        """Open a mesh of our own generator with the anchors that suit it."""
+        self.open(SAMPLE + id, run=run)
+
+    def open_again(self, **changes: Any) -> None:
+        """Read the present source once more with other `kind` or `fixes`."""
+        session = self._wanted or self.session
+        arguments = {"kind": session.kind, "fixes": session.fixes, **changes}
+        if session.source:
+            self.open(session.source, run=self.wants_to_run, **arguments)
+
+    def fixes_asked_for(self) -> tuple[str, ...]:
+        """Fixes of the last attempt to open."""
+        return (self._wanted or self.session).fixes
+
+    def _take_loaded(self, report: Loaded) -> None:
+        if report.generation != self.generation:
+            return
+        self.session = replace(
+            self._wanted or self.session,
+            fixes=report.fixes,
+            initializer="",
+            initializer_parameters={},
+            start_file="",
+        )
+        self.loaded = report
+        self.snapshot = None
+        self.wants_to_run = False
+        self.selected = -1
+        self.anchors = AnchorSet.none()
+        self._send_anchors(False)
+        self._is_opening = True
+        self.opened.emit()
+        self.session_changed.emit()
+        self.anchors_changed.emit()
+        self.history_restarted.emit()
+
+    def close_mesh(self) -> None:
+        """Show nothing: the mesh that came cannot be drawn."""
+        self._bridge.post(Pause())
+        self.loaded = None
+        self.snapshot = None
+        self.anchors = AnchorSet.none()
+        self._is_opening = False
+        self.wants_to_run = False
+        self.closed.emit()
+
+    def _take_refused(self, report: Refused) -> None:
+        if report.generation == self.generation or report.command != "Load":
+            if report.command in ("Reset", "SetProblem", "SetSolver", "Run", "Step"):
+                self.wants_to_run = False
+                self.session_changed.emit()
+            self.refused.emit(report)
+
+    def _take_failure(self, report: Failure) -> None:
+        self.wants_to_run = False
+        self.session_changed.emit()
+
+    # ------------------------------------------------------------------------------------------ maps
+
+    def _take_snapshot(self, snapshot: Snapshot) -> None:
+        mesh = self.mesh
+        if mesh is None or snapshot.generation != self.generation or len(snapshot.positions) != mesh.vertex_count:
+            return
+        self.snapshot = snapshot
+        self.snapshot_taken.emit()
+        if self._is_opening:
+            self._is_opening = False
+            self._set_first_anchors(snapshot.positions)
+            if self._runs_after_open:
+                self.run()
+
+    def _set_first_anchors(self, start: Floats) -> None:
+        """Anchors that the file or the sample comes with; without targets they hold the start where it is."""
+        assert self.loaded is not None
+        vertices, targets = self.loaded.anchor_vertices, self.loaded.anchor_targets
+        if vertices is None and is_sample(self.session.source):
+            vertices = sample_anchors(self.session.source.removeprefix(SAMPLE))
+        if vertices is None or not len(vertices):
+            return
+        if targets is None:
+            self.set_anchors(AnchorSet.at(vertices, start))
+        else:
+            self.set_anchors(AnchorSet({int(v): tuple(float(c) for c in t) for v, t in zip(vertices, targets, strict=True)}))
+
+    # ------------------------------------------------------------------------------------------ choices
+
+    def choose(self, **changes: Any) -> None:
+        """Replace fields of the session and tell the engine what follows from it."""
+        session = replace(self.session, **changes)
+        if session == self.session:
+            return
+        self.session = session
+        names = set(changes)
+        if names & PROBLEM_FIELDS:
+            self._bridge.post(self._problem(session))
+        if names & SOLVER_FIELDS:
+            self._bridge.post(self._solver(session))
+        if names & START_FIELDS and self.mesh is not None:
+            self.reset()
+        self.session_changed.emit()
+
+    @staticmethod
+    def _problem(session: Session) -> SetProblem:
+        return SetProblem(
+            session.distortion,
+            dict(session.distortion_parameters),
+            session.fixed_boundary,
+            session.allow_inversions,
+        )
+
+    @staticmethod
+    def _solver(session: Session) -> SetSolver:
+        return SetSolver(session.solver, dict(session.solver_parameters))
+
+    # ------------------------------------------------------------------------------------------ running
+
+    def run(self) -> None:
+        if self.mesh is None:
+            return
+        session = self.session
+        self.wants_to_run = True
+        self._bridge.post(Run(session.iterations, session.tolerance, session.time_limit))
+        self.session_changed.emit()
+
+    def pause(self) -> None:
+        self.wants_to_run = False
+        self._bridge.post(Pause())
+        self.session_changed.emit()
+
+    def toggle(self) -> None:
+        """Space: run where it rests or has finished, else pause."""
+        has_finished = self.snapshot is not None and self.snapshot.phase == "finished"
+        if self.wants_to_run and not has_finished:
+            self.pause()
+        else:
+            self.run()
+
+    def step(self) -> None:
+        if self.mesh is not None:
+            self.wants_to_run = False
+            self._bridge.post(Step(1))
+            self.session_changed.emit()
+
+    def reset(self) -> None:
+        """Make the start anew; anchors stay where they are."""
+        if self.mesh is None:
+            return
+        session = self.session
+        self._bridge.post(
+            Reset(session.initializer, dict(session.initializer_parameters), session.start_file, session.match_area)
+        )
+        self.history_restarted.emit()
+        if self.wants_to_run:
+            self.run()
+
+    def stop(self) -> None:
+        """End whatever goes on, also what hangs; the last good map stays."""
+        self.wants_to_run = False
+        self._bridge.stop()
+        self.session_changed.emit()
+
+    # ------------------------------------------------------------------------------------------ anchors
+
+    def set_anchors(self, anchors: AnchorSet, *, dragging: bool = False, at: float | None = None) -> None:
+        """Take these anchors; `at` is the time of the event behind it, for the drag meter."""
+        if self.mesh is None:
+            return
+        self.anchors = anchors
+        if self.selected >= 0 and self.selected not in anchors:
+            self.select(-1)
+        self._send_anchors(dragging, at)
+        self.anchors_changed.emit()
+
+    def _send_anchors(self, dragging: bool, at: float | None = None) -> None:
+        self.anchor_serial += 1
+        dimension = self.snapshot.positions.shape[1] if self.snapshot is not None else 2
+        vertices = self.anchors.vertices
+        if at is not None:
+            self.drag_sent.emit(self.anchor_serial, at)
+        self._bridge.post(
+            SetAnchors(
+                vertices,
+                self.anchors.target_array(dimension),
+                np.full(len(vertices), np.inf),
+                serial=self.anchor_serial,
+                dragging=dragging,
+            )
+        )
+
+    def add_anchor(self, vertex: int) -> None:
+        """Hold a vertex where it is now."""
+        if self.positions is not None and vertex not in self.anchors:
+            self.set_anchors(self.anchors.with_target(vertex, self.positions[vertex]))
+        self.select(vertex)
+
+    def move_anchor(self, vertex: int, target: Floats, dragging: bool, at: float | None = None) -> None:
+        if vertex in self.anchors:
+            moment = time.perf_counter() if at is None else at
+            self.set_anchors(self.anchors.with_target(vertex, target), dragging=dragging, at=moment)
+
+    def remove_anchor(self, vertex: int) -> None:
+        if vertex in self.anchors:
+            self.set_anchors(self.anchors.without(vertex))
+
+    def clear_anchors(self) -> None:
+        if len(self.anchors):
+            self.set_anchors(AnchorSet.none())
+
+    def pin(self, vertices: Integers) -> None:
+        """Hold more vertices where they are now; anchors that are there stay as they are."""
+        if self.positions is not None:
+            self.set_anchors(self.anchors.joined(AnchorSet.at(vertices, self.positions)))
+
+    def select(self, vertex: int) -> None:
+        if vertex != self.selected:
+            self.selected = vertex
+            self.selection_changed.emit()
+
+
+def is_sample(source: str) -> bool:
+    return source.startswith(SAMPLE)
+
+
+def sample_anchors(id: str) -> Integers | None:
+    """Vertices (k,) that a sample comes with; None where the sample is not known."""
+    from workbench.core.errors import WorkbenchError
+    from workbench.core.samples import sample_info
+
+    try:
+        return np.array(sample_info(id).anchors, dtype=np.int64)
+    except WorkbenchError:
+        return None

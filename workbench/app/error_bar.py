@@ -1,0 +1,100 @@
+"""A bar that says what went wrong and what to do, without stopping anything."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPlainTextEdit, QPushButton, QToolButton, QVBoxLayout, QWidget
+
+from workbench.app.theme import Theme
+
+FIX_LABELS = {
+    "reorient": "Reorient consistently",
+    "largest": "Keep the largest component",
+    "unreferenced": "Remove unreferenced vertices",
+    "seams": "Cut along the texture seams",
+    "cut": "Cut open to a disc",
+}
+
+
+class ErrorBar(QFrame):
+    """One message at a time: sentence, buttons for fixes, details that fold out."""
+
+    fix_wanted = Signal(object)
+    """Names of the fixes to apply, in order."""
+
+    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("error-bar")
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(12, 7, 8, 7)
+        outer.setSpacing(6)
+        line = QHBoxLayout()
+        line.setSpacing(8)
+        self.sentence = QLabel(self)
+        self.sentence.setWordWrap(True)
+        self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        line.addWidget(self.sentence, 1)
+        self._buttons = QHBoxLayout()
+        line.addLayout(self._buttons)
+        self.details_button = QToolButton(self)
+        self.details_button.setText("Details")
+        self.details_button.setCheckable(True)
+        self.details_button.toggled.connect(self._show_details)
+        line.addWidget(self.details_button, 0, Qt.AlignmentFlag.AlignTop)
+        self.close_button = QToolButton(self)
+        self.close_button.setText("✕")
+        self.close_button.setToolTip("Dismiss")
+        self.close_button.setAutoRaise(True)
+        self.close_button.clicked.connect(self.dismiss)
+        line.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
+        outer.addLayout(line)
+        self.details = QPlainTextEdit(self)
+        self.details.setReadOnly(True)
+        self.details.setMaximumHeight(160)
+        self.details.hide()
+        outer.addWidget(self.details)
+        self.fix_buttons: list[QPushButton] = []
+        self.set_theme(theme)
+        self.hide()
+
+    def set_theme(self, theme: Theme) -> None:
+        self.setStyleSheet(
+            f"#error-bar {{ background: {theme.warning}; border-bottom: 1px solid {theme.border}; }}"
+            f"#error-bar QLabel {{ color: {theme.warning_text}; }}"
+        )
+
+    def show_message(self, sentence: str, fixes: Sequence[str] = (), details: str = "") -> None:
+        """Put a message in the place of the one before."""
+        self.sentence.setText(sentence)
+        for button in self.fix_buttons:
+            self._buttons.removeWidget(button)
+            button.hide()
+            button.deleteLater()
+        self.fix_buttons = []
+        for name in fixes:
+            self._add_button(FIX_LABELS.get(name, name.capitalize()), (name,))
+        if len(fixes) > 1:
+            self._add_button("Do all of these", tuple(fixes))
+        self.details.setPlainText(details)
+        self.details_button.setVisible(bool(details))
+        self.details_button.setChecked(False)
+        self.show()
+
+    def _add_button(self, text: str, names: tuple[str, ...]) -> None:
+        button = QPushButton(text, self)
+        button.clicked.connect(lambda _=False, chosen=names: self._choose(chosen))
+        self._buttons.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+        self.fix_buttons.append(button)
+
+    def _choose(self, names: tuple[str, ...]) -> None:
+        self.dismiss()
+        self.fix_wanted.emit(names)
+
+    def _show_details(self, wanted: bool) -> None:
+        self.details.setVisible(wanted)
+
+    def dismiss(self) -> None:
+        self.details.hide()
+        self.hide()

@@ -1,0 +1,36 @@
+"""The words of the Help menu."""
+
+from __future__ import annotations
+
+SHORTCUTS = """
+<h3>Mouse</h3>
+<table cellspacing="6">
+<tr><td>move</td><td>shows which vertex is meant</td></tr>
+<tr><td>click</td><td>sets an anchor, or selects one</td></tr>
+<tr><td>drag, target</td><td>moves an anchor</td></tr>
+<tr><td>right click</td><td>removes an anchor</td></tr>
+<tr><td>wheel</td><td>zooms at the pointer</td></tr>
+<tr><td>middle drag</td><td>pans</td></tr>
+<tr><td>left drag, source in space</td><td>turns the surface</td></tr>
+<tr><td>double click on the background</td><td>fits the view</td></tr>
+</table>
+<h3>Keys</h3>
+<table cellspacing="6">
+<tr><td>Space</td><td>run, pause</td></tr>
+<tr><td>. (period)</td><td>one step</td></tr>
+<tr><td>Home</td><td>reset to the start</td></tr>
+<tr><td>F</td><td>fit all views</td></tr>
+<tr><td>E</td><td>show or hide edges</td></tr>
+<tr><td>Delete</td><td>remove the selected anchor</td></tr>
+<tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
+<tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
+</table>
+"""
+
+ABOUT = """
+<h3>Distortion Workbench</h3>
+<p>Inversion-free maps of triangles and tetrahedra, and how they distort: choose a distortion, a solver and a start,
+drag anchors, and watch the map follow.</p>
+<p>The numbers in round brackets are equations of the survey by A. Naitsat, G. Naitzat and Y. Y. Zeevi,
+<i>On Inversion-Free Mapping and Distortion Minimization</i>.</p>
+"""

@@ -1,0 +1,39 @@
+"""History rows in growing arrays, for curves that are drawn again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.engine.messages import HistoryRow
+
+COLUMNS = ("iteration", "seconds", "energy", "gradient_norm", "inverted")
+
+
+class History:
+    """Columns of `HistoryRow` since the last start. Appending is O(1) a row; reading copies nothing."""
+
+    def __init__(self) -> None:
+        self._table: Floats = np.empty((len(COLUMNS), 256))
+        self._count = 0
+
+    def __len__(self) -> int:
+        return self._count
+
+    def clear(self) -> None:
+        self._count = 0
+
+    def extend(self, rows: Iterable[HistoryRow]) -> None:
+        for row in rows:
+            if self._count == self._table.shape[1]:
+                grown = np.empty((len(COLUMNS), 2 * self._count))
+                grown[:, : self._count] = self._table
+                self._table = grown
+            self._table[:, self._count] = [getattr(row, name) for name in COLUMNS]
+            self._count += 1
+
+    def column(self, name: str) -> Floats:
+        """(k,) float64, a view"""
+        return self._table[COLUMNS.index(name), : self._count]

@@ -1,0 +1,116 @@
+"""Icons drawn by the program itself, in the colours of the theme."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QIcon, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
+
+from workbench.app.theme import Theme
+
+SIZE = 64
+
+
+def _triangle(painter: QPainter, left: float, right: float) -> None:
+    painter.drawPolygon(QPolygonF([QPointF(left, 12), QPointF(right, 32), QPointF(left, 52)]))
+
+
+def _run(painter: QPainter) -> None:
+    _triangle(painter, 16, 52)
+
+
+def _pause(painter: QPainter) -> None:
+    painter.drawRect(QRectF(15, 12, 12, 40))
+    painter.drawRect(QRectF(37, 12, 12, 40))
+
+
+def _step(painter: QPainter) -> None:
+    _triangle(painter, 12, 40)
+    painter.drawRect(QRectF(43, 12, 9, 40))
+
+
+def _stop(painter: QPainter) -> None:
+    painter.drawRect(QRectF(14, 14, 36, 36))
+
+
+def _reset(painter: QPainter) -> None:
+    pen = QPen(painter.brush().color(), 7)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawArc(QRectF(13, 13, 38, 38), 120 * 16, 285 * 16)
+    painter.setBrush(pen.color())
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.drawPolygon(QPolygonF([QPointF(8, 24), QPointF(28, 26), QPointF(19, 7)]))
+
+
+def _open(painter: QPainter) -> None:
+    path = QPainterPath(QPointF(8, 16))
+    for x, y in ((26, 16), (31, 22), (54, 22), (54, 52), (8, 52)):
+        path.lineTo(x, y)
+    path.closeSubpath()
+    painter.drawPath(path)
+
+
+def _save(painter: QPainter) -> None:
+    painter.drawRect(QRectF(28, 8, 8, 24))
+    painter.drawPolygon(QPolygonF([QPointF(17, 28), QPointF(47, 28), QPointF(32, 44)]))
+    painter.drawRect(QRectF(10, 48, 44, 7))
+
+
+def _fit(painter: QPainter) -> None:
+    pen = QPen(painter.brush().color(), 6)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for x, y, dx, dy in ((12, 12, 1, 1), (52, 12, -1, 1), (12, 52, 1, -1), (52, 52, -1, -1)):
+        painter.drawPolyline(QPolygonF([QPointF(x + 13 * dx, y), QPointF(x, y), QPointF(x, y + 13 * dy)]))
+    painter.setBrush(pen.color())
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.drawEllipse(QPointF(32, 32), 8, 8)
+
+
+def _pin(painter: QPainter) -> None:
+    pen = QPen(painter.brush().color(), 5)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawEllipse(QPointF(32, 32), 19, 19)
+    painter.setBrush(pen.color())
+    painter.setPen(Qt.PenStyle.NoPen)
+    for x, y in ((32, 13), (32, 51), (13, 32), (51, 32)):
+        painter.drawEllipse(QPointF(x, y), 7, 7)
+
+
+def _clear(painter: QPainter) -> None:
+    painter.setPen(QPen(painter.brush().color(), 8, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    painter.drawLine(QPointF(16, 16), QPointF(48, 48))
+    painter.drawLine(QPointF(48, 16), QPointF(16, 48))
+
+
+DRAWINGS: dict[str, Callable[[QPainter], None]] = {
+    "run": _run,
+    "pause": _pause,
+    "step": _step,
+    "stop": _stop,
+    "reset": _reset,
+    "open": _open,
+    "save": _save,
+    "fit": _fit,
+    "pin": _pin,
+    "clear": _clear,
+}
+
+
+def icon(name: str, theme: Theme) -> QIcon:
+    """Icon `name` for a theme, also in its faint colour for what cannot be used."""
+    result = QIcon()
+    for mode, colour in ((QIcon.Mode.Normal, theme.text), (QIcon.Mode.Disabled, theme.border)):
+        picture = QPixmap(SIZE, SIZE)
+        picture.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(picture)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(colour))
+        DRAWINGS[name](painter)
+        painter.end()
+        result.addPixmap(picture, mode)
+    return result

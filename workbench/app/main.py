@@ -1,0 +1,52 @@
+"""Opening the window."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Any
+
+# before anything imports qtpy, through pyvistaqt
+os.environ.setdefault("QT_API", "pyside6")
+
+
+def run_window(
+    source: str | None = None,
+    *,
+    theme: str = "",
+    settings_file: str | Path | None = None,
+    **unused: Any,
+) -> int:
+    """Open the window and return its exit status when it is closed.
+
+    Parameters
+    ----------
+    source : str             file to open, or `sample:ID`; the first sample where there is none
+    theme : str              system, light or dark; the user's last choice where it is empty
+    settings_file : path     settings of its own instead of the user's
+    """
+    application = make_application()
+    from workbench.app.main_window import MainWindow
+    from workbench.app.settings import Settings
+    from workbench.app.theme import ThemeSwitch
+
+    settings = Settings(settings_file)
+    switch = ThemeSwitch(application, theme or settings.theme)
+    window = MainWindow(switch, settings)
+    window.show()
+    window.start(source or "")
+    return int(application.exec())
+
+
+def make_application() -> Any:
+    """The one QApplication, with the style that looks alike everywhere and knows light and dark."""
+    from PySide6.QtWidgets import QApplication
+
+    application = QApplication.instance()
+    if application is None:
+        application = QApplication(sys.argv[:1])
+    assert isinstance(application, QApplication)
+    application.setApplicationName("Distortion Workbench")
+    application.setStyle("Fusion")
+    return application

@@ -1,0 +1,274 @@
+"""The main window: views, docks, panel, and who tells whom."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QSplitter, QVBoxLayout, QWidget
+
+from workbench.app.actions import make_actions, set_icons
+from workbench.app.anchor_tool import AnchorTool
+from workbench.app.background import Background
+from workbench.app.colour_bar import ColourBar
+from workbench.app.commands import Commands
+from workbench.app.docks.colour_map_dock import ColourMapDock
+from workbench.app.docks.convergence_dock import ConvergenceDock
+from workbench.app.docks.histogram_dock import HistogramDock
+from workbench.app.document import Document
+from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
+from workbench.app.error_bar import ErrorBar
+from workbench.app.history import History
+from workbench.app.menus import fill_menus, fill_tool_bar
+from workbench.app.panel_turns import PanelTurns
+from workbench.app.panels.control_panel import ControlPanel
+from workbench.app.presenter import Presenter
+from workbench.app.progress_bar import ProgressLine
+from workbench.app.quantities import LIVE_QUANTITIES, ColourRange
+from workbench.app.reporter import Reporter
+from workbench.app.settings import Settings
+from workbench.app.status_line import StatusLine
+from workbench.app.style import style_sheet
+from workbench.app.theme import Theme, ThemeSwitch
+from workbench.app.views.pane import ViewPane
+
+SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
+RIGHT, BOTTOM, LEFT = (
+    Qt.DockWidgetArea.RightDockWidgetArea,
+    Qt.DockWidgetArea.BottomDockWidgetArea,
+    Qt.DockWidgetArea.LeftDockWidgetArea,
+)
+
+
+class MainWindow(QMainWindow):
+    """Assembles the parts and owns them; what they do stands in the parts."""
+
+    def __init__(
+        self,
+        theme_switch: ThemeSwitch,
+        settings: Settings,
+        make_worker: WorkerMaker = engine_worker,
+    ) -> None:
+        super().__init__()
+        self.setWindowTitle("Distortion Workbench")
+        self.setAcceptDrops(True)
+        self.resize(1560, 940)
+        self.setDockNestingEnabled(True)
+        self._is_closed = False
+        self.theme_switch = theme_switch
+        self.settings = settings
+        self.bridge = EngineBridge(make_worker)
+        self.document = Document(self.bridge)
+        self.history = History()
+        self.actions_by_name = make_actions(self, self.theme)
+        self._make_centre()
+        self._make_docks()
+        self._make_status()
+        self.turns = PanelTurns()
+        self.presenter = Presenter(
+            self.document, self.source.view, self.target.view, self.maps, self.ranges, self.turns
+        )
+        self.turns.add(self.histogram.plot, self._draw_histogram)
+        self.turns.add(self.convergence.graphics, self.convergence.refresh)
+        self._make_tools()
+        self.commands = Commands(self)
+        fill_menus(self)
+        fill_tool_bar(self)
+        self.reporter = Reporter(self)
+        self._connect()
+        self._apply_theme(self.theme)
+        self._restore_layout()
+        # methods are found on a thread: their imports would hold up the first picture
+        self._finder = Background(_find_methods, self)
+        self._finder.finished.connect(self._methods_found)
+        self._finder.failed.connect(self.reporter.show_exception)
+        QTimer.singleShot(0, self, self._finder.start)
+
+    @property
+    def theme(self) -> Theme:
+        return self.theme_switch.theme
+
+    # ------------------------------------------------------------------------------------------ making
+
+    def _make_centre(self) -> None:
+        self.ranges = {quantity.id: ColourRange(quantity) for quantity in LIVE_QUANTITIES}
+        target_styles = {"plain": "Plain", **{q.id: f"{q.label} {q.equation}" for q in LIVE_QUANTITIES}}
+        self.source = ViewPane("Source", SOURCE_STYLES, self.theme, self)
+        self.target = ViewPane("Target", target_styles, self.theme, self)
+        self.target_bars = {id: ColourBar(colour_range, self.target) for id, colour_range in self.ranges.items()}
+        for bar in self.target_bars.values():
+            bar.hide()
+            self.target.add_below(bar)
+        splitter = QSplitter(Qt.Orientation.Horizontal, self)
+        splitter.addWidget(self.source)
+        splitter.addWidget(self.target)
+        splitter.setChildrenCollapsible(False)
+        splitter.setSizes([500, 500])
+        centre = QWidget(self)
+        layout = QVBoxLayout(centre)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        self.error_bar = ErrorBar(self.theme, centre)
+        self.progress = ProgressLine(centre)
+        layout.addWidget(self.error_bar)
+        layout.addWidget(self.progress)
+        layout.addWidget(splitter, 1)
+        self.setCentralWidget(centre)
+
+    def _make_docks(self) -> None:
+        run_names = ("run", "step", "reset", "stop")
+        self.panel = ControlPanel(self.document, [self.actions_by_name[n] for n in run_names], self)
+        self.panel_dock = QDockWidget("Choices", self)
+        self.panel_dock.setObjectName("choices")
+        self.panel_dock.setWidget(self.panel)
+        self.maps = [ColourMapDock(colour_range, self.theme, self) for colour_range in self.ranges.values()]
+        self.histogram = HistogramDock(self.theme, self)
+        self.convergence = ConvergenceDock(self.history, self.theme, self)
+        for corner, area in (
+            (Qt.Corner.TopLeftCorner, LEFT),
+            (Qt.Corner.BottomLeftCorner, LEFT),
+            (Qt.Corner.TopRightCorner, RIGHT),
+            (Qt.Corner.BottomRightCorner, RIGHT),
+        ):
+            self.setCorner(corner, area)
+        self.addDockWidget(LEFT, self.panel_dock)
+        for dock in self.maps:
+            self.addDockWidget(RIGHT, dock)
+        self.addDockWidget(BOTTOM, self.histogram)
+        self.addDockWidget(BOTTOM, self.convergence)
+        self.splitDockWidget(self.histogram, self.convergence, Qt.Orientation.Horizontal)
+        self.resizeDocks([self.panel_dock], [290], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.maps[0]], [330], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.histogram, self.convergence], [300, 640], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.histogram], [230], Qt.Orientation.Vertical)
+        self.docks: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
+
+    def _make_status(self) -> None:
+        self.status = StatusLine(self)
+        self.setStatusBar(self.status)
+
+    def _make_tools(self) -> None:
+        document, presenter = self.document, self.presenter
+
+        def may_anchor() -> bool:
+            return document.positions is not None
+
+        self.source_tool = AnchorTool(self.source.view, is_target=False, may_anchor=may_anchor)
+        self.target_tool = AnchorTool(self.target.view, is_target=True, may_anchor=may_anchor)
+        for tool in (self.source_tool, self.target_tool):
+            tool.hovered.connect(presenter.hover)
+            tool.anchor_wanted.connect(document.add_anchor)
+            tool.anchor_selected.connect(document.select)
+            tool.anchor_moved.connect(document.move_anchor)
+            tool.anchor_unwanted.connect(document.remove_anchor)
+            document.opened.connect(tool.let_go)
+
+    def _connect(self) -> None:
+        self.theme_switch.changed.connect(self._apply_theme)
+        self.source.style_chosen.connect(self.presenter.set_source_style)
+        self.target.style_chosen.connect(self.set_target_style)
+        self.document.snapshot_taken.connect(self._extend_history)
+        self.document.history_restarted.connect(self._restart_history)
+        self.document.closed.connect(self.histogram.clear)
+
+    # ------------------------------------------------------------------------------------------ showing
+
+    def set_target_style(self, style: str) -> None:
+        """Colour the target by a quantity, or plain."""
+        self.target.set_style(style)
+        for id, bar in self.target_bars.items():
+            bar.setVisible(id == style)
+        self.presenter.set_target_style(style)
+
+    def set_source_style(self, style: str) -> None:
+        self.source.set_style(style)
+        self.presenter.set_source_style(style)
+
+    def _extend_history(self) -> None:
+        snapshot = self.document.snapshot
+        assert snapshot is not None
+        self.history.extend(snapshot.rows or (snapshot.row,))
+
+    def _restart_history(self) -> None:
+        self.history.clear()
+        self.turns.all_stale()
+
+    def _draw_histogram(self) -> None:
+        if self.document.snapshot is not None:
+            self.histogram.show_snapshot(self.document.snapshot)
+
+    def _methods_found(self, registry: Any) -> None:
+        self.panel.set_registry(registry)
+        self.reporter.show_plugin_failures(registry)
+
+    def _apply_theme(self, theme: Theme) -> None:
+        self.setStyleSheet(style_sheet(theme))
+        set_icons(self.actions_by_name, theme)
+        for pane in (self.source, self.target):
+            pane.view.set_theme(theme)
+        for part in (*self.target_bars.values(), *self.maps, self.histogram, self.convergence, self.error_bar):
+            part.set_theme(theme)
+        self.reporter.show_running()
+
+    # ------------------------------------------------------------------------------------------ opening
+
+    def start(self, source: str = "") -> None:
+        """Start the engine and open `source`, or the sample to begin with."""
+        self.bridge.start()
+        if source:
+            self.open(source)
+        else:
+            from workbench.core.samples import sample_ids
+
+            self.document.open_sample(sample_ids()[0])
+
+    def open(self, source: str) -> None:
+        """Open a file, or `sample:ID`."""
+        if source.startswith("sample:"):
+            self.document.open_sample(source.removeprefix("sample:"))
+        else:
+            self.document.open(str(Path(source).expanduser()))
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802
+        files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
+        if files:
+            event.acceptProposedAction()
+            self.open(files[0])
+
+    # ------------------------------------------------------------------------------------------ end
+
+    def _restore_layout(self) -> None:
+        layout = self.settings.layout()
+        if layout is not None:
+            self.restoreGeometry(layout[0])
+            self.restoreState(layout[1])
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802
+        """Timers, engine, threads, views; then Qt's own."""
+        if not self._is_closed:
+            self._is_closed = True
+            self.settings.save_layout(self.saveGeometry(), self.saveState())
+            self.settings.sync()
+            self.turns.stop()
+            self.reporter.stop()
+            self.source_tool.let_go()
+            self.target_tool.let_go()
+            self.bridge.close()
+            self._finder.wait()
+            self.commands.wait()
+            self.theme_switch.changed.disconnect(self._apply_theme)
+            for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
+                view.close_view()
+        super().closeEvent(event)
+
+
+def _find_methods() -> Any:
+    from workbench.core.registry import registry
+
+    return registry()

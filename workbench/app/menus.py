@@ -1,0 +1,96 @@
+"""Menus and tool bar, filled from the actions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtGui import QAction, QActionGroup
+from PySide6.QtWidgets import QMenu, QToolBar
+
+from workbench.app.reporter import source_name
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+
+def fill_menus(window: MainWindow) -> None:
+    """File, Edit, Solver, View, Help."""
+    actions, bar = window.actions_by_name, window.menuBar()
+    file_menu = bar.addMenu("&File")
+    file_menu.addAction(actions["open"])
+    recent = file_menu.addMenu("Open &recent")
+    recent.aboutToShow.connect(lambda: fill_recent(window, recent))
+    samples = file_menu.addMenu("S&amples")
+    samples.aboutToShow.connect(lambda: fill_samples(window, samples))
+    file_menu.addSeparator()
+    file_menu.addAction(actions["save"])
+    for name in ("shot-source", "shot-target", "shot-window"):
+        file_menu.addAction(actions[name])
+    file_menu.addSeparator()
+    file_menu.addAction(actions["quit"])
+    edit = bar.addMenu("&Edit")
+    for name in ("pin", "remove", "clear"):
+        edit.addAction(actions[name])
+    solver = bar.addMenu("&Solver")
+    for name in ("run", "step", "reset", "stop"):
+        solver.addAction(actions[name])
+    view = bar.addMenu("&View")
+    for name in ("fit", "edges", "lock"):
+        view.addAction(actions[name])
+    view.addSeparator()
+    _add_themes(window, view.addMenu("&Appearance"))
+    panels = view.addMenu("&Panels")
+    for dock in window.docks:
+        panels.addAction(dock.toggleViewAction())
+    help_menu = bar.addMenu("&Help")
+    for name in ("shortcuts", "report", "about"):
+        help_menu.addAction(actions[name])
+
+
+def _add_themes(window: MainWindow, menu: QMenu) -> None:
+    group = QActionGroup(menu)
+    for choice, text in (("system", "Follow the system"), ("light", "Light"), ("dark", "Dark")):
+        action = menu.addAction(text)
+        action.setCheckable(True)
+        action.setChecked(window.theme_switch.choice == choice)
+        group.addAction(action)
+        action.triggered.connect(lambda _=False, c=choice: window.commands.choose_theme(c))
+
+
+def fill_recent(window: MainWindow, menu: QMenu) -> None:
+    """The files of the settings, those that are still there."""
+    menu.clear()
+    paths = window.settings.recent_files
+    for path in paths:
+        action = menu.addAction(path)
+        action.triggered.connect(lambda _=False, p=path: window.open(p))
+    if paths:
+        menu.addSeparator()
+        menu.addAction("Forget these").triggered.connect(lambda: window.settings.forget_files())
+    else:
+        menu.addAction("No files yet").setEnabled(False)
+
+
+def fill_samples(window: MainWindow, menu: QMenu) -> None:
+    """Meshes of our own generator."""
+    from workbench.core.samples import sample_ids
+
+    menu.clear()
+    for id in sample_ids():
+        action = menu.addAction(source_name(f"sample:{id}"))
+        action.triggered.connect(lambda _=False, i=id: window.document.open_sample(i))
+
+
+def fill_tool_bar(window: MainWindow) -> None:
+    """What is wanted often."""
+    bar = QToolBar("Tools", window)
+    bar.setObjectName("tools")
+    bar.setMovable(False)
+    bar.setIconSize(QSize(18, 18))
+    bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+    for name in ("open", "save", "", "run", "step", "reset", "stop", "", "pin", "clear", "", "fit"):
+        bar.addAction(window.actions_by_name[name]) if name else bar.addSeparator()
+    window.addToolBar(bar)
+    unlisted: list[QAction] = [a for a in window.actions_by_name.values() if not a.associatedObjects()]
+    window.addActions(unlisted)

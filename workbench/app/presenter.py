@@ -1,0 +1,203 @@
+"""From the document to the pictures: meshes, maps, anchors and marks in every view."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.docks.colour_map_dock import ColourMapDock
+from workbench.app.document import Document
+from workbench.app.panel_turns import PanelTurns
+from workbench.app.quantities import ColourRange
+from workbench.app.views.geometry import DisplayFrame, Geometry
+from workbench.app.views.mesh_view import MeshView
+from workbench.app.views.textures import PATTERNS
+from workbench.core.arrays import Floats
+
+
+class Presenter(QObject):
+    """Draws the newest snapshot in the main views at once, in the panels in turns."""
+
+    picture_sent = Signal(int)
+    """A map that has taken up this anchor serial is on its way to the screen."""
+
+    def __init__(
+        self,
+        document: Document,
+        source: MeshView,
+        target: MeshView,
+        maps: list[ColourMapDock],
+        ranges: dict[str, ColourRange],
+        turns: PanelTurns,
+    ) -> None:
+        super().__init__()
+        self._document = document
+        self.source = source
+        self.target = target
+        self._maps = maps
+        self._ranges = ranges
+        self._turns = turns
+        self.source_style = "checkerboard"
+        self.target_style = "plain"
+        self._source_frame: DisplayFrame | None = None
+        self._target_geometry: Geometry | None = None
+        self._hovered = -1
+        document.opened.connect(self._show_mesh)
+        document.closed.connect(self.clear)
+        document.snapshot_taken.connect(self._show_snapshot)
+        document.anchors_changed.connect(self._anchors_changed)
+        document.selection_changed.connect(self._anchors_changed)
+        for dock in maps:
+            turns.add(dock.view, lambda d=dock: self._draw_map(d))
+        for colour_range in ranges.values():
+            colour_range.changed.connect(self._apply_target_style)
+
+    # ------------------------------------------------------------------------------------------ meshes
+
+    def clear(self) -> None:
+        self._target_geometry = None
+        for view in (self.source, self.target):
+            view.clear()
+        for dock in self._maps:
+            dock.clear()
+        self._mark()
+
+    def _show_mesh(self) -> None:
+        loaded = self._document.loaded
+        assert loaded is not None
+        self.clear()
+        geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices)
+        surface = self.source.show_geometry(geometry)
+        surface.set_cut_edges(loaded.cut_edges)
+        self.set_source_style(self.source_style)
+
+    def _begin_target(self, positions: Floats) -> Geometry:
+        """The first map of a mesh: its frame is kept, so that dragging does not move the picture."""
+        loaded = self._document.loaded
+        assert loaded is not None
+        geometry = Geometry(positions, loaded.mesh.simplices)
+        self._target_geometry = geometry
+        surface = self.target.show_geometry(geometry)
+        surface.set_cut_edges(loaded.cut_edges)
+        for dock in self._maps:
+            dock.show_geometry(geometry)
+            assert dock.view.surface is not None
+            dock.view.surface.set_cut_edges(loaded.cut_edges)
+        self._apply_target_style()
+        return geometry
+
+    def refit_target(self) -> None:
+        """Fit the target and the panels to the map as it is now."""
+        self.target.fit()
+        for dock in self._maps:
+            dock.view.fit()
+
+    # ------------------------------------------------------------------------------------------ maps
+
+    def _show_snapshot(self) -> None:
+        snapshot = self._document.snapshot
+        assert snapshot is not None
+        is_first = self._target_geometry is None
+        geometry = self._target_geometry or self._begin_target(snapshot.positions)
+        geometry.write(snapshot.positions)
+        self.target.points_changed()
+        for dock in self._maps:
+            values = snapshot.fields.get(dock.colour_range.quantity.id)
+            if values is not None:
+                dock.colour_range.take(values)
+        self._paint_target()
+        self._paint_source()
+        self._mark()
+        if is_first:
+            self.refit_target()
+        self.target.refresh()
+        if self.source.surface is not None and (self.source.surface.has_texture or snapshot.inverted.any()):
+            self.source.refresh()
+        self._turns.all_stale()
+        self.picture_sent.emit(snapshot.anchor_serial)
+
+    def _paint_target(self) -> None:
+        snapshot, surface = self._document.snapshot, self.target.surface
+        if snapshot is None or surface is None:
+            return
+        surface.set_values(snapshot.fields.get(self.target_style), snapshot.inverted)
+
+    def _paint_source(self) -> None:
+        snapshot, surface, geometry = self._document.snapshot, self.source.surface, self._target_geometry
+        if snapshot is None or surface is None or geometry is None:
+            return
+        surface.set_texture_positions(geometry.points)
+        surface.set_values(None, snapshot.inverted)
+
+    def _draw_map(self, dock: ColourMapDock) -> None:
+        if self._document.snapshot is not None:
+            dock.show_snapshot(self._document.snapshot)
+
+    # ------------------------------------------------------------------------------------------ styles
+
+    def set_source_style(self, style: str) -> None:
+        self.source_style = style
+        surface = self.source.surface
+        if surface is None or style not in PATTERNS:
+            return
+        surface.show_pattern(style)  # type: ignore[arg-type]
+        self._paint_source()
+        self.source.refresh()
+
+    def set_target_style(self, style: str) -> None:
+        self.target_style = style
+        self._apply_target_style()
+
+    def _apply_target_style(self) -> None:
+        surface = self.target.surface
+        if surface is None:
+            return
+        if self.target_style in self._ranges:
+            colour_range = self._ranges[self.target_style]
+            surface.show_range(colour_range.low, colour_range.high)
+        else:
+            surface.show_plain()
+        self._paint_target()
+        self.target.refresh()
+
+    # ------------------------------------------------------------------------------------------ marks
+
+    def hover(self, vertex: int) -> None:
+        if vertex != self._hovered:
+            self._hovered = vertex
+            self._anchors_changed()
+
+    def _anchors_changed(self) -> None:
+        self._mark()
+        # only the layer above is painted anew; the pictures below stay as they are
+        self.source.overlay.update()
+        self.target.overlay.update()
+
+    def _mark(self) -> None:
+        """Bring anchors, the hovered vertex and the limiting simplex of both layers up to date."""
+        document = self._document
+        mesh, positions = document.mesh, document.positions
+        anchors = document.anchors
+        for view in (self.source, self.target):
+            scene = view.overlay.scene
+            geometry = view.geometry_shown
+            scene.limiting = None
+            scene.hovered_point = None
+            if mesh is None or geometry is None or positions is None:
+                scene.anchor_vertices = np.empty(0, np.int64)
+                scene.anchor_points = scene.vertex_points = np.empty((0, 3))
+                continue
+            scene.anchor_vertices = anchors.vertices
+            scene.vertex_points = geometry.points[anchors.vertices]
+            if view is self.target:
+                scene.anchor_points = geometry.frame.to_display(anchors.target_array(positions.shape[1]))
+            else:
+                scene.anchor_points = scene.vertex_points
+            scene.selected = document.selected
+            if 0 <= self._hovered < len(geometry.points):
+                scene.hovered = self._hovered
+                scene.hovered_point = geometry.points[self._hovered]
+            snapshot = document.snapshot
+            if snapshot is not None and 0 <= snapshot.limiting_simplex < len(geometry.triangles):
+                scene.limiting = geometry.points[geometry.triangles[snapshot.limiting_simplex]]
+                scene.limiting_label = f"triangle {snapshot.limiting_simplex} limits the step"

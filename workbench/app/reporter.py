@@ -1,0 +1,232 @@
+"""Words about what happens: status bar, error bar, progress, the state of the buttons."""
+
+from __future__ import annotations
+
+import traceback
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, QTimer
+
+from workbench.app.actions import show_running
+from workbench.app.document import SAMPLE, is_sample
+from workbench.app.meters import DragMeter, RateMeter
+from workbench.core.errors import WorkbenchError
+from workbench.engine.messages import Failure, Progress, Ready, Refused, Restarted
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+NUMBERS_INTERVAL = 150
+"""Milliseconds between two sets of numbers in the status bar: faster ones cannot be read."""
+
+VOLUMES = (
+    "This mesh is made of tetrahedra: volumes are solved from the command line for now "
+    "(workbench solve FILE --out OUT). Open a triangle mesh here."
+)
+
+
+class Reporter(QObject):
+    """Listens to the engine and the document, and puts what they say into words."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document = window.document
+        self.drag_meter = DragMeter()
+        self.rate_meter = RateMeter()
+        self._is_ready = False
+        self._last_iteration = -1
+        self._drawn_serial = 0
+        self._said = ""
+        self._timer = QTimer(self)
+        self._timer.setInterval(NUMBERS_INTERVAL)
+        self._timer.timeout.connect(self.show_numbers)
+        self._timer.start()
+        self._connect()
+        window.status.say("Starting the engine…")
+
+    def _connect(self) -> None:
+        bridge, document, window = self._window.bridge, self._document, self._window
+        bridge.ready.connect(self._ready)
+        bridge.progress.connect(self._progress)
+        bridge.failure.connect(self._failure)
+        bridge.restarted.connect(self._restarted)
+        document.refused.connect(self._refused)
+        document.opening.connect(self._opening)
+        document.opened.connect(self._opened)
+        document.snapshot_taken.connect(self._snapshot)
+        document.session_changed.connect(self.show_running)
+        document.drag_sent.connect(self.drag_meter.sent)
+        document.history_restarted.connect(self._restart_meters)
+        window.error_bar.fix_wanted.connect(self._apply_fixes)
+        window.progress.cancelled.connect(document.stop)
+        window.presenter.picture_sent.connect(self._picture_sent)
+        # the picture is on the screen when Qt has put the frame together
+        window.target.view.plotter.frameSwapped.connect(self._picture_drawn)
+
+    def stop(self) -> None:
+        self._timer.stop()
+
+    # ------------------------------------------------------------------------------------------ engine
+
+    def _ready(self, report: Ready) -> None:
+        self._is_ready = True
+        self._window.progress.end()
+        if self._document.mesh is None and not self._document.opening_source:
+            self._window.status.say(f"The engine is ready ({report.seconds:.1f} s).")
+
+    def _progress(self, report: Progress) -> None:
+        if 0 <= report.fraction < 1 or report.fraction < 0:
+            self._window.progress.begin(report.sentence, report.fraction)
+            self._window.status.say(report.sentence)
+        else:
+            self._window.progress.end()
+
+    def _failure(self, report: Failure) -> None:
+        self._window.progress.end()
+        self._window.error_bar.show_message(report.sentence, details=report.traceback)
+
+    def _restarted(self, report: Restarted) -> None:
+        self._window.progress.end()
+        self._window.error_bar.show_message(report.sentence)
+
+    def _refused(self, report: Refused) -> None:
+        self._window.progress.end()
+        self._window.error_bar.show_message(report.sentence, report.fixes, "\n".join(report.lines))
+        if report.command == "Load":
+            self._window.status.say("Nothing was opened.")
+        self._window.panel.show_session()
+
+    def _apply_fixes(self, fixes: Any) -> None:
+        wanted = self._document.fixes_asked_for()
+        self._document.open_again(fixes=(*wanted, *(f for f in fixes if f not in wanted)))
+
+    def show_exception(self, error: BaseException) -> None:
+        """A fault of ours or of a plugin, with its traceback in the details."""
+        sentence = error.sentence if isinstance(error, WorkbenchError) else f"{type(error).__name__}: {error}"
+        self._window.error_bar.show_message(sentence, details="".join(traceback.format_exception(error)))
+
+    def show_plugin_failures(self, registry: Any) -> None:
+        failures = registry.failures
+        if failures:
+            names = ", ".join(failure.path.name for failure in failures)
+            details = "\n\n".join(f"{failure.path}\n{failure.traceback}" for failure in failures)
+            self._window.error_bar.show_message(
+                f"Plugins that could not be used, and are left out: {names}. Mend or remove them; `workbench doctor` lists them.",
+                details=details,
+            )
+
+    # ------------------------------------------------------------------------------------------ mesh
+
+    def _opening(self, source: str) -> None:
+        self._window.error_bar.dismiss()
+        name = source_name(source)
+        self._window.progress.begin(f"Opening {name}…")
+        self._window.status.say(f"Opening {name}…")
+
+    def _opened(self) -> None:
+        window, document = self._window, self._document
+        window.progress.end()
+        loaded = document.loaded
+        assert loaded is not None
+        if loaded.mesh.dimension == 3:
+            window.error_bar.show_message(VOLUMES, details="\n".join(loaded.lines))
+            window.setWindowTitle("Distortion Workbench")
+            document.close_mesh()
+            window.status.say("Volumes are solved from the command line for now.")
+            return
+        source = document.session.source
+        if not is_sample(source):
+            window.settings.remember_file(source)
+        name = source_name(source)
+        window.setWindowTitle(f"{name} – Distortion Workbench")
+        mesh = loaded.mesh
+        window.source.caption.setText(f"{mesh.vertex_count:,} vertices, {mesh.simplex_count:,} triangles".replace(",", "\u2009"))
+        window.source.caption.setToolTip("\n".join(loaded.lines))
+        window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
+        for pane in (window.source, window.target):
+            pane.view.overlay.message = ""
+        window.actions_by_name["edges"].setChecked(bool(window.source.view.surface and window.source.view.surface.has_edges))
+
+    # ------------------------------------------------------------------------------------------ numbers
+
+    def _restart_meters(self) -> None:
+        self._last_iteration = -1
+        self.rate_meter.forget()
+
+    def _snapshot(self) -> None:
+        snapshot = self._document.snapshot
+        assert snapshot is not None
+        iteration = snapshot.row.iteration
+        if self._last_iteration >= 0 and iteration > self._last_iteration:
+            self.rate_meter.take(iteration - self._last_iteration)
+        self._last_iteration = iteration
+        key = f"{snapshot.phase}/{snapshot.status.name}/{snapshot.limiting_simplex >= 0}/{self._document.wants_to_run}"
+        if key != self._said:
+            self._said = key
+            self._say_state()
+            self.show_running()
+
+    def _say_state(self) -> None:
+        snapshot = self._document.snapshot
+        if snapshot is None:
+            return
+        if snapshot.limiting_simplex >= 0 and snapshot.phase in ("running", "dragging"):
+            self._window.status.say(
+                f"An anchor lags: triangle {snapshot.limiting_simplex} would invert; the map follows as far as it can."
+            )
+        elif snapshot.phase == "finished":
+            self._window.status.say(snapshot.status.value)
+        elif snapshot.phase == "dragging":
+            self._window.status.say("The map follows the hand.")
+        elif snapshot.phase == "running":
+            self._window.status.say(snapshot.status.value)
+        elif self._document.wants_to_run:
+            self._window.status.say("The solver is starting.")
+        else:
+            self._window.status.say("At rest. Space runs the solver; a click sets an anchor; drag anchors in the target.")
+
+    def show_numbers(self) -> None:
+        """Bring the numbers of the status bar up to date."""
+        snapshot, status = self._document.snapshot, self._window.status
+        if snapshot is None:
+            status.clear_numbers()
+            status.show_field("state", "" if self._is_ready else "starting")
+            self._window.target.caption.setText("")
+            return
+        row = snapshot.row
+        is_moving = snapshot.phase in ("running", "dragging")
+        status.show_field("state", snapshot.phase)
+        status.show_field("iteration", f"iteration {row.iteration}")
+        status.show_field("rate", f"{self.rate_meter.rate():.0f} it/s" if is_moving else "")
+        status.show_number("mean", row.mean_distortion, "mean D {:.5g}")
+        status.show_field("inverted", f"{row.inverted} inverted")
+        delay = self.drag_meter.recent
+        status.show_field("delay", f"drag {delay:.0f} ms" if delay is not None else "")
+        self._window.target.caption.setText(f"{len(self._document.anchors)} anchors" if len(self._document.anchors) else "no anchors")
+
+    def _picture_sent(self, serial: int) -> None:
+        self._drawn_serial = serial
+
+    def _picture_drawn(self) -> None:
+        self.drag_meter.drawn(self._drawn_serial)
+
+    # ------------------------------------------------------------------------------------------ buttons
+
+    def show_running(self) -> None:
+        """Run or Pause, and what can be done at all."""
+        window, document = self._window, self._document
+        snapshot = document.snapshot
+        has_mesh = document.mesh is not None
+        is_running = document.wants_to_run and not (snapshot is not None and snapshot.phase == "finished")
+        show_running(window.actions_by_name["run"], is_running, window.theme)
+        for name in ("run", "step", "reset", "save", "pin", "clear", "fit", "shot-source", "shot-target"):
+            window.actions_by_name[name].setEnabled(has_mesh)
+
+
+def source_name(source: str) -> str:
+    """What a person calls a source: the file's name, or the sample's."""
+    if is_sample(source):
+        return source.removeprefix(SAMPLE).replace("-", " ").capitalize()
+    return Path(source).name

@@ -1,0 +1,77 @@
+"""Writing the map to a file, on a thread of its own."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Qt, Signal
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.errors import WorkbenchError
+from workbench.engine.messages import Loaded, Snapshot
+from workbench.session.session import Session
+
+FILTERS = "OBJ, vertex order and faces kept (*.obj);;NumPy case (*.npz);;VTK with fields (*.vtu);;All files (*)"
+
+
+@dataclass(frozen=True, eq=False)
+class SaveRequest:
+    """All that a file needs, taken at the moment of asking."""
+
+    path: Path
+    session: Session
+    loaded: Loaded
+    snapshot: Snapshot
+    anchor_vertices: Integers
+    anchor_targets: Floats
+
+
+class Saver(QObject):
+    """Reads the source again for what the window does not hold (polygons of the file, dropped vertices), then writes."""
+
+    saved = Signal(str)
+    failed = Signal(str)
+    _done = Signal(str, str)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._thread: threading.Thread | None = None
+        self._done.connect(self._report, Qt.ConnectionType.QueuedConnection)
+
+    @property
+    def is_busy(self) -> bool:
+        return self._thread is not None and self._thread.is_alive()
+
+    def save(self, request: SaveRequest) -> None:
+        if self.is_busy:
+            self.failed.emit("The file before is still being written; save again in a moment.")
+            return
+        self._thread = threading.Thread(target=self._run, args=(request,), name="save-map", daemon=True)
+        self._thread.start()
+
+    def wait(self, seconds: float = 10.0) -> None:
+        if self._thread is not None:
+            self._thread.join(seconds)
+
+    def _run(self, request: SaveRequest) -> None:
+        sentence = ""
+        try:
+            write(request)
+        except WorkbenchError as error:
+            sentence = error.sentence
+        except Exception as error:  # a thread has nobody above it: everything is reported
+            sentence = f"The map could not be written to {request.path}: {error}."
+        self._done.emit(str(request.path), sentence)
+
+    def _report(self, path: str, sentence: str) -> None:
+        if sentence:
+            self.failed.emit(sentence)
+        else:
+            self.saved.emit(path)
+
+
+def write(request: SaveRequest) -> None:
+    """Write a map as the command line does. Raises `WorkbenchError`."""
+    raise WorkbenchError("Saving is not there yet.")

@@ -1,0 +1,67 @@
+"""What the window remembers from one use to the next."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QByteArray, QSettings
+
+RECENT_COUNT = 10
+
+
+class Settings:
+    """Recent files, theme and layout. `path` names a file of its own, so that tests leave the user's alone."""
+
+    def __init__(self, path: str | Path | None = None) -> None:
+        if path is None:
+            self._store = QSettings(
+                QSettings.Format.IniFormat, QSettings.Scope.UserScope, "distortion-workbench", "window"
+            )
+        else:
+            self._store = QSettings(str(path), QSettings.Format.IniFormat)
+
+    @property
+    def recent_files(self) -> list[str]:
+        """Newest first; files that are gone are left out."""
+        value: Any = self._store.value("recent", [])
+        paths = [value] if isinstance(value, str) else list(value or [])
+        return [str(p) for p in paths if p and Path(str(p)).is_file()]
+
+    def remember_file(self, path: str) -> None:
+        full = str(Path(path).resolve())
+        others = [p for p in self.recent_files if p != full]
+        self._store.setValue("recent", [full, *others][:RECENT_COUNT])
+
+    def forget_files(self) -> None:
+        self._store.setValue("recent", [])
+
+    @property
+    def theme(self) -> str:
+        return str(self._store.value("theme", "system"))
+
+    @theme.setter
+    def theme(self, choice: str) -> None:
+        self._store.setValue("theme", choice)
+
+    @property
+    def folder(self) -> str:
+        """Folder of the last file that was opened or saved."""
+        return str(self._store.value("folder", ""))
+
+    @folder.setter
+    def folder(self, path: str) -> None:
+        self._store.setValue("folder", path)
+
+    def save_layout(self, geometry: QByteArray, state: QByteArray) -> None:
+        self._store.setValue("geometry", geometry)
+        self._store.setValue("state", state)
+
+    def layout(self) -> tuple[QByteArray, QByteArray] | None:
+        geometry, state = self._store.value("geometry"), self._store.value("state")
+        if isinstance(geometry, QByteArray) and isinstance(state, QByteArray):
+            return geometry, state
+        return None
+
+    def sync(self) -> None:
+        self._store.sync()

@@ -1,0 +1,22 @@
+"""The little that the palette cannot say."""
+
+from __future__ import annotations
+
+from workbench.app.theme import Theme
+
+
+def style_sheet(theme: Theme) -> str:
+    return f"""
+    QDockWidget {{ color: {theme.text}; }}
+    QDockWidget::title {{ background: {theme.window}; padding: 4px 8px; border-bottom: 1px solid {theme.border}; }}
+    QMainWindow::separator {{ background: {theme.border}; width: 4px; height: 4px; }}
+    QSplitter::handle {{ background: {theme.border}; width: 3px; }}
+    QLabel#citation {{ color: {theme.faint}; font-size: 11px; }}
+    QLabel#form-error {{ color: {"#ff8a80" if theme.is_dark else "#b3261e"}; }}
+    QGroupBox {{ border: 1px solid {theme.border}; border-radius: 5px; margin-top: 9px; padding-top: 6px; }}
+    QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {theme.text}; font-weight: 600; }}
+    QStatusBar {{ border-top: 1px solid {theme.border}; }}
+    QStatusBar::item {{ border: 0; }}
+    QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}
+    QToolTip {{ background: {theme.base}; color: {theme.text}; border: 1px solid {theme.border}; padding: 3px; }}
+    """

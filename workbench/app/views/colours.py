@@ -1,0 +1,46 @@
+"""Colour tables: a perceptually uniform map, and NaN for inverted simplices."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.vtkCommonCore import vtkLookupTable
+
+from workbench.app.theme import INVERTED, Colour
+
+TRIMMED = 14
+"""Entries left out at the pale end, which would be lost on a white background."""
+
+
+@lru_cache(maxsize=1)
+def distortion_colours() -> NDArray[np.float64]:
+    """Colours (k, 3) in [0, 1] from no distortion to much: pale blue over violet to red.
+
+    Perceptually uniform (Kovesi 2015, CET-L19). It has no yellow, which stands for inverted simplices.
+    """
+    import colorcet  # late: the first frame needs no colours
+
+    table = np.array([_rgb(text) for text in colorcet.palette["CET_L19"]])
+    return table[TRIMMED:]
+
+
+def _rgb(text: str) -> list[float]:
+    return [int(text[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+
+
+def lookup_table(colours: NDArray[np.float64], low: float, high: float) -> vtkLookupTable:
+    """A VTK table of `colours` (k, 3) over [low, high]; NaN is drawn in the colour of inverted simplices."""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(colours))
+    for row, colour in enumerate(colours):
+        table.SetTableValue(row, *(float(c) for c in colour), 1.0)
+    table.SetRange(low, high)
+    table.SetNanColor(*INVERTED, 1.0)
+    return table
+
+
+def single_colour(colour: Colour) -> vtkLookupTable:
+    """A table that shows every number in one colour and NaN as inverted."""
+    return lookup_table(np.array([colour, colour]), 0.0, 1.0)

@@ -1,0 +1,168 @@
+"""One view of a mesh: pyvista's Qt widget, our camera, the layer above."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QColor, QPixmap, QResizeEvent
+from PySide6.QtWidgets import QWidget
+from pyvistaqt import QtInteractor
+
+from workbench.app.theme import Theme
+from workbench.app.views.camera import Pixel, Size, ViewCamera, slanted_axes
+from workbench.app.views.geometry import Geometry
+from workbench.app.views.overlay import Overlay
+from workbench.app.views.picking import ScreenTriangles, nearest_pixel
+from workbench.app.views.surface import Surface
+from workbench.core.arrays import Floats
+
+REACH = 14.0
+"""How far from a vertex, in pixels, the pointer may be over the background."""
+REACH_INSIDE = 60.0
+"""The same over the mesh, where large triangles leave vertices far apart."""
+
+
+class MeshView(QWidget):
+    """A view of one `Geometry`. The interactor is composed, so that neither framework's names meet ours."""
+
+    camera_changed = Signal()
+
+    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.theme = theme
+        self.camera = ViewCamera()
+        self.geometry_shown: Geometry | None = None
+        self.surface: Surface | None = None
+        self._is_closed = False
+        self._wants_fit = True
+        self._version = 0
+        self._screen: tuple[int, Size, ScreenTriangles] | None = None
+        self.plotter = QtInteractor(self, auto_update=False, multi_samples=0)
+        self.plotter.setAcceptDrops(False)  # files that are dropped go to the window
+        self.plotter.reset_key_events()
+        self.plotter.enable_lightkit()
+        self._renderer: Any = self.plotter.renderer
+        self._renderer.SetUseHiddenLineRemoval(False)
+        self.overlay = Overlay(self)
+        self.setMinimumSize(120, 100)
+        self.set_theme(theme)
+
+    # ------------------------------------------------------------------------------------------ content
+
+    def show_geometry(self, geometry: Geometry, *, edges: bool | None = None) -> Surface:
+        """Draw another mesh; the camera fits it at the next chance."""
+        self.clear()
+        self.geometry_shown = geometry
+        self.surface = Surface(geometry, self.theme, edges=edges)
+        for actor in self.surface.actors:
+            self._renderer.AddActor(actor)
+        self.camera = ViewCamera() if geometry.is_flat else ViewCamera(axes=slanted_axes())
+        self.fit()
+        return self.surface
+
+    def clear(self) -> None:
+        if self.surface is not None:
+            for actor in self.surface.actors:
+                self._renderer.RemoveActor(actor)
+        self.surface = None
+        self.geometry_shown = None
+        self._screen = None
+        self.refresh()
+
+    def set_theme(self, theme: Theme) -> None:
+        self.theme = theme
+        self.overlay.theme = theme
+        colour = QColor(theme.view)
+        self._renderer.SetBackground(colour.redF(), colour.greenF(), colour.blueF())
+        if self.surface is not None:
+            self.surface.set_theme(theme)
+        self.refresh()
+
+    def points_changed(self) -> None:
+        """The geometry was written: what is known of its place on the screen no longer holds."""
+        self._version += 1
+
+    def refresh(self) -> None:
+        """Draw at the next turn of the event loop, where the view is to be seen at all."""
+        if not self._is_closed and self.is_shown():
+            self.plotter.update()
+            self.overlay.update()
+
+    def is_shown(self) -> bool:
+        return self.isVisible() and not self.visibleRegion().isEmpty()
+
+    # ------------------------------------------------------------------------------------------ camera
+
+    @property
+    def size_in_pixels(self) -> Size:
+        return max(self.width(), 1), max(self.height(), 1)
+
+    def set_camera(self, camera: ViewCamera) -> None:
+        self.camera = camera
+        self._wants_fit = False
+        camera.apply_to(self._renderer.GetActiveCamera())
+        self.points_changed()
+        self.refresh()
+        self.camera_changed.emit()
+
+    def fit(self) -> None:
+        """Bring the whole mesh into the view."""
+        if self.geometry_shown is not None:
+            self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels))
+        self._wants_fit = True
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802
+        self.plotter.setGeometry(self.rect())
+        self.overlay.setGeometry(self.rect())
+        self.overlay.raise_()
+        if self._wants_fit:
+            self.fit()  # a view that shows everything goes on doing so while it is resized
+        self.points_changed()
+
+    def project(self, points: Floats) -> Floats:
+        """(n, 3) of the display -> (n, 2) pixels, y downwards."""
+        return self.camera.project(points, self.size_in_pixels)[0]
+
+    def position_at(self, pixel: Pixel) -> Floats:
+        """Place (d,) in the mesh's own units under a pixel."""
+        assert self.geometry_shown is not None
+        return self.geometry_shown.frame.from_display(self.camera.unproject(pixel, self.size_in_pixels))
+
+    # ------------------------------------------------------------------------------------------ picking
+
+    def vertex_at(self, pixel: Pixel) -> int:
+        """Vertex meant by a pointer, -1 where there is none near."""
+        if self.geometry_shown is None:
+            return -1
+        return self._on_screen().vertex_at(pixel, REACH, REACH_INSIDE)
+
+    def is_over_mesh(self, pixel: Pixel) -> bool:
+        return self.geometry_shown is not None and self._on_screen().triangle_at(pixel) >= 0
+
+    def anchor_at(self, pixel: Pixel, reach: float = 11.0) -> int:
+        """Vertex of the anchor whose disc is under the pointer, -1 where there is none."""
+        scene = self.overlay.scene
+        row = nearest_pixel(self.project(scene.anchor_points), pixel, reach)
+        return int(scene.anchor_vertices[row]) if row >= 0 else -1
+
+    def _on_screen(self) -> ScreenTriangles:
+        """The mesh as it lies in the widget, kept while neither camera nor points change."""
+        assert self.geometry_shown is not None
+        size = self.size_in_pixels
+        if self._screen is None or self._screen[:2] != (self._version, size):
+            pixels, heights = self.camera.project(self.geometry_shown.points, size)
+            self._screen = (self._version, size, ScreenTriangles(pixels, heights, self.geometry_shown.triangles))
+        return self._screen[2]
+
+    # ------------------------------------------------------------------------------------------ end
+
+    def picture(self) -> QPixmap:
+        """The view with its anchors, as it is on the screen."""
+        return self.grab()
+
+    def close_view(self) -> None:
+        """Give the graphics memory back; nothing may be drawn afterwards."""
+        if not self._is_closed:
+            self._is_closed = True
+            self.plotter.close()

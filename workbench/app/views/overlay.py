@@ -1,0 +1,186 @@
+"""The layer above a view: anchors, the vertex under the pointer, the simplex that limits the step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import (
+    QBrush,
+    QColor,
+    QContextMenuEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
+from workbench.core.arrays import Floats, Integers
+
+if TYPE_CHECKING:
+    from PySide6.QtCore import QEvent
+
+    from workbench.app.views.mesh_view import MeshView
+
+RADIUS = 6.5
+"""Radius of an anchor's disc in pixels."""
+SMALL_RADIUS = 3.5
+MANY = 60
+"""Number of anchors from which on their discs are small."""
+
+
+def _no_points() -> Floats:
+    return np.empty((0, 3))
+
+
+@dataclass
+class OverlayScene:
+    """What the layer shows, in units of the display; a view's owner fills it in.
+
+    `anchor_vertices` (k,), `anchor_points` (k, 3) where the discs stand, `vertex_points` (k, 3) where their
+    vertices are now: a line joins the two where the map lags behind.
+    """
+
+    anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
+    anchor_points: Floats = field(default_factory=_no_points)
+    vertex_points: Floats = field(default_factory=_no_points)
+    selected: int = -1
+    hovered: int = -1
+    hovered_point: Floats | None = None
+    limiting: Floats | None = None
+    limiting_label: str = ""
+
+
+class Overlay(QWidget):
+    """Transparent widget over the 3D view; takes every event of the mouse, so that VTK's own style never sees one."""
+
+    pressed = Signal(object)
+    moved = Signal(object)
+    released = Signal(object)
+    double_clicked = Signal(object)
+    wheeled = Signal(object)
+    left = Signal()
+
+    def __init__(self, view: MeshView) -> None:
+        super().__init__(view)
+        self._view = view
+        self.scene = OverlayScene()
+        self.theme: Theme = LIGHT
+        self.message = ""
+        self.setMouseTracking(True)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
+
+    # ------------------------------------------------------------------------------------------ events
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802
+        self.pressed.emit(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802
+        self.moved.emit(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802
+        self.released.emit(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802
+        self.double_clicked.emit(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802
+        self.wheeled.emit(event)
+        event.accept()
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802
+        self.left.emit()
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:  # noqa: N802
+        event.accept()  # the right button removes anchors; the window's dock menu would cover them
+
+    # ------------------------------------------------------------------------------------------ painting
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self.message:
+            self._paint_message(painter)
+        self._paint_limiting(painter)
+        self._paint_anchors(painter)
+        self._paint_hovered(painter)
+        painter.end()
+
+    def _paint_message(self, painter: QPainter) -> None:
+        painter.setPen(QColor(self.theme.faint))
+        area = QRectF(self.rect()).adjusted(24, 24, -24, -24)
+        painter.drawText(area, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, self.message)
+
+    def _paint_limiting(self, painter: QPainter) -> None:
+        scene = self.scene
+        if scene.limiting is None:
+            return
+        corners = self._view.project(scene.limiting)
+        painter.setPen(QPen(LIMITING, 2.5))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawPolygon(QPolygonF([QPointF(*p) for p in corners]))
+        # a simplex about to invert is often too thin to be seen: a ring says where it is
+        middle = corners.mean(axis=0)
+        painter.drawEllipse(QPointF(*middle), 13.0, 13.0)
+        self._label(painter, QPointF(middle[0] + 16, middle[1] - 10), scene.limiting_label)
+
+    def _paint_anchors(self, painter: QPainter) -> None:
+        scene = self.scene
+        if not len(scene.anchor_vertices):
+            return
+        discs = self._view.project(scene.anchor_points)
+        vertices = self._view.project(scene.vertex_points)
+        radius = RADIUS if len(discs) <= MANY else SMALL_RADIUS
+        rim = QPen(ANCHOR_RIM, 1.8 if radius == RADIUS else 1.0)
+        leash = QPen(QColor(self.theme.text), 1.2, Qt.PenStyle.DashLine)
+        gaps = np.abs(discs - vertices).max(axis=1)
+        for row in np.flatnonzero(gaps > 2.0):
+            painter.setPen(leash)
+            painter.drawLine(QPointF(*vertices[row]), QPointF(*discs[row]))
+        painter.setPen(rim)
+        painter.setBrush(QBrush(ANCHOR))
+        chosen = -1
+        for row, point in enumerate(discs):
+            if scene.anchor_vertices[row] == scene.selected:
+                chosen = row
+                continue
+            painter.drawEllipse(QPointF(*point), radius, radius)
+        if chosen >= 0:
+            painter.setBrush(QBrush(ANCHOR_SELECTED))
+            painter.drawEllipse(QPointF(*discs[chosen]), RADIUS + 1, RADIUS + 1)
+
+    def _paint_hovered(self, painter: QPainter) -> None:
+        scene = self.scene
+        if scene.hovered < 0 or scene.hovered_point is None:
+            return
+        (point,) = self._view.project(scene.hovered_point[None, :])
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(QPen(QColor(self.theme.view), 4.0))
+        painter.drawEllipse(QPointF(*point), 10.0, 10.0)
+        painter.setPen(QPen(QColor(self.theme.accent), 2.0))
+        painter.drawEllipse(QPointF(*point), 10.0, 10.0)
+        self._label(painter, QPointF(point[0] + 14, point[1] - 12), f"vertex {scene.hovered}")
+
+    def _label(self, painter: QPainter, at: QPointF, text: str) -> None:
+        if not text:
+            return
+        metrics = painter.fontMetrics()
+        box = QRectF(metrics.boundingRect(text)).adjusted(-6, -3, 6, 3)
+        box.moveTopLeft(at + QPointF(0, -box.height()))
+        # near an edge of the view the label turns back inside
+        box.moveLeft(min(max(box.left(), 2.0), self.width() - box.width() - 2.0))
+        box.moveTop(min(max(box.top(), 2.0), self.height() - box.height() - 2.0))
+        painter.setPen(Qt.PenStyle.NoPen)
+        paper = QColor(self.theme.base)
+        paper.setAlpha(225)
+        painter.setBrush(paper)
+        painter.drawRoundedRect(box, 4, 4)
+        painter.setPen(QColor(self.theme.text))
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)

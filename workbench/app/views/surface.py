@@ -1,0 +1,188 @@
+"""The actors of one view: triangles with a colour each, inverted ones outlined, cut edges."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+from workbench.app.theme import CUT, INVERTED_OUTLINE, Theme
+from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
+from workbench.app.views.geometry import Geometry
+from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
+from workbench.core.arrays import Booleans, Floats, Integers
+
+EDGES_UP_TO = 12_000
+"""Triangles up to which their edges are drawn unasked."""
+
+
+class Surface:
+    """A `Geometry` with colours, in place; add `actors` to a renderer once.
+
+    Colours come from one number a triangle through a table; NaN marks an inverted triangle.
+    """
+
+    def __init__(self, geometry: Geometry, theme: Theme, *, edges: bool | None = None) -> None:
+        self.geometry = geometry
+        self._theme = theme
+        self._values: NDArray[np.float32] = np.zeros(len(geometry.triangles), np.float32)
+        self._scalars = numpy_to_vtk(self._values, deep=0)
+        self._scalars.SetName("colour")
+        self._polydata = vtkPolyData()
+        self._polydata.SetPoints(geometry.vtk_points)
+        self._polydata.SetPolys(geometry.vtk_cells)
+        self._polydata.GetCellData().SetScalars(self._scalars)
+        self._texture_points: NDArray[np.float32] | None = None
+        self._texture_data: Any = None
+        self._pattern: Pattern | None = None
+        self._mapper = _mapper(self._polydata)
+        self._mapper.SetScalarModeToUseCellData()
+        self._mapper.SetColorModeToMapScalars()
+        self._mapper.UseLookupTableScalarRangeOn()
+        self._actor = _actor(self._mapper)
+        self._outline = vtkPolyData()
+        self._outline.SetPoints(geometry.vtk_points)
+        self._outline_actor = _line_actor(self._outline, INVERTED_OUTLINE, 1.5, -6.0)
+        self._outlined: Integers = np.empty(0, np.int64)
+        self._cut = vtkPolyData()
+        self._cut.SetPoints(geometry.vtk_points)
+        self._cut_actor = _line_actor(self._cut, CUT, 3.0, -12.0)
+        self.actors = (self._actor, self._outline_actor, self._cut_actor)
+        self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
+        self.show_plain()
+
+    def _style(self, edges: bool) -> None:
+        style = self._actor.GetProperty()
+        style.SetLighting(not self.geometry.is_flat)
+        style.SetInterpolationToFlat()
+        style.SetAmbient(0.35)
+        style.SetDiffuse(0.65)
+        style.SetEdgeColor(*self._theme.edges)
+        style.SetLineWidth(1.0)
+        self.set_edges(edges)
+
+    def set_edges(self, visible: bool) -> None:
+        self._actor.GetProperty().SetEdgeVisibility(visible)
+
+    @property
+    def has_edges(self) -> bool:
+        return bool(self._actor.GetProperty().GetEdgeVisibility())
+
+    def set_theme(self, theme: Theme) -> None:
+        self._theme = theme
+        self._actor.GetProperty().SetEdgeColor(*theme.edges)
+        if self._pattern is not None:
+            self.show_pattern(self._pattern)
+        elif self._is_plain:
+            self.show_plain()
+
+    # ------------------------------------------------------------------------------------------ colours
+
+    def show_plain(self) -> None:
+        """One colour for all triangles but the inverted."""
+        self._drop_texture()
+        self._is_plain = True
+        self._mapper.SetLookupTable(single_colour(self._theme.fill))
+        self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
+        self._scalars.Modified()
+
+    def show_range(self, low: float, high: float) -> None:
+        """Colours of a distortion from `low` to `high`."""
+        self._drop_texture()
+        self._is_plain = False
+        self._mapper.SetLookupTable(lookup_table(distortion_colours(), low, high))
+
+    def show_pattern(self, pattern: Pattern) -> None:
+        """A pattern laid over the triangles; `set_texture_positions` says where."""
+        if pattern == "plain":
+            self.show_plain()
+            return
+        self._is_plain = False
+        self._pattern = pattern
+        if self._texture_points is None:
+            self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
+            self._texture_data = numpy_to_vtk(self._texture_points, deep=0)
+            self._polydata.GetPointData().SetTCoords(self._texture_data)
+        self._actor.SetTexture(pattern_texture(pattern, self._theme.is_dark))
+        self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
+        self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
+        self._scalars.Modified()
+
+    def _drop_texture(self) -> None:
+        self._pattern = None
+        self._actor.SetTexture(None)
+
+    @property
+    def has_texture(self) -> bool:
+        return self._pattern is not None
+
+    def set_texture_positions(self, shown: Floats) -> None:
+        """Take the map in units of its display (n, 2), where its diameter is 1, as texture coordinates."""
+        if self._texture_points is None:
+            return
+        np.multiply(shown[:, :2], TILES_ACROSS, out=self._texture_points, casting="same_kind")
+        self._texture_data.Modified()
+
+    def set_values(self, values: NDArray[Any] | None, inverted: Booleans) -> None:
+        """One number a triangle (m,), or None for plain; `inverted` (m,) bool are drawn yellow, outlined dark."""
+        if values is None or self._pattern is not None or self._is_plain:
+            self._values[:] = 0.0
+        else:
+            np.copyto(self._values, values, casting="same_kind")
+            # an infinite distortion lies beyond the table; NaN is kept for inverted triangles alone
+            np.nan_to_num(self._values, copy=False, nan=3e38, posinf=3e38, neginf=-3e38)
+        if inverted.any():
+            self._values[inverted] = np.nan
+        self._scalars.Modified()
+        self._outline_inverted(np.flatnonzero(inverted))
+
+    # ------------------------------------------------------------------------------------------ lines
+
+    def _outline_inverted(self, rows: Integers) -> None:
+        if np.array_equal(rows, self._outlined):
+            return
+        self._outlined = rows
+        self._outline_actor.SetVisibility(len(rows) > 0)
+        triangles = self.geometry.triangles[rows]
+        self._outline.SetLines(_lines(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])))
+
+    def set_cut_edges(self, edges: Integers) -> None:
+        """Edges (k, 2) that a cut opened: green."""
+        self._cut_actor.SetVisibility(len(edges) > 0)
+        self._cut.SetLines(_lines(edges))
+
+
+def _lines(pairs: Integers) -> vtkCellArray:
+    cells = vtkCellArray()
+    cells.SetData(2, numpy_to_vtkIdTypeArray(np.ascontiguousarray(pairs, dtype=np.int64).ravel(), deep=1))
+    return cells
+
+
+def _mapper(polydata: vtkPolyData) -> vtkPolyDataMapper:
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(polydata)
+    return mapper
+
+
+def _actor(mapper: vtkPolyDataMapper) -> vtkActor:
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    return actor
+
+
+def _line_actor(polydata: vtkPolyData, colour: tuple[float, float, float], width: float, offset: float) -> vtkActor:
+    mapper = _mapper(polydata)
+    mapper.ScalarVisibilityOff()
+    # lines lie in the triangles they belong to: they are drawn a little nearer to the eye
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, offset)
+    actor = _actor(mapper)
+    actor.GetProperty().SetColor(*colour)
+    actor.GetProperty().SetLineWidth(width)
+    actor.GetProperty().LightingOff()
+    actor.SetVisibility(False)
+    return actor
