@@ -35,7 +35,7 @@ TEXTS: dict[str, ActionText] = {
     "run": ActionText("Run", ("Space",), "Run or pause the solver (Space)", "run"),
     "step": ActionText("Step", (".",), "Take one iteration (.)", "step"),
     "reset": ActionText("Reset", ("Home",), "Make the start anew (Home)", "reset"),
-    "stop": ActionText("Stop", ("Ctrl+.",), "End whatever the engine does, also what hangs; the last good map stays (Ctrl+.)", "stop"),
+    "stop": ActionText("Stop", ("Ctrl+.",), "End what hangs; the last good map stays (Ctrl+.)", "stop"),
     "fit": ActionText("&Fit views", ("F",), "Show everything in every view (F)", "fit"),
     "edges": ActionText("Show &edges", ("E",), checkable=True),
     "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),

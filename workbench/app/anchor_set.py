@@ -28,6 +28,12 @@ class AnchorSet:
         """Anchors that hold `vertices` where `positions` (n, d) has them."""
         return cls({int(v): tuple(float(c) for c in positions[v]) for v in vertices})
 
+    @classmethod
+    def to(cls, vertices: Integers, targets: Floats) -> AnchorSet:
+        """Anchors with targets of their own: (k,) int64, (k, d) float64."""
+        pairs = zip(vertices.tolist(), targets.tolist(), strict=True)
+        return cls({int(v): tuple(target) for v, target in pairs})
+
     def __len__(self) -> int:
         return len(self.targets)
 

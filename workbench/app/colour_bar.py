@@ -28,17 +28,17 @@ class ColourBar(QWidget):
         colour_range.changed.connect(self.update)
         self.setToolTip("Shared by all views that show this quantity. Yellow: inverted.")
 
-    def sizeHint(self) -> QSize:  # noqa: N802
+    def sizeHint(self) -> QSize:
         return QSize(200, BAR_HEIGHT + self.fontMetrics().height() + 9)
 
-    def minimumSizeHint(self) -> QSize:  # noqa: N802
+    def minimumSizeHint(self) -> QSize:
         return QSize(120, self.sizeHint().height())
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
         self.update()
 
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802
+    def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(self.theme.view))
         metrics = painter.fontMetrics()

@@ -196,7 +196,7 @@ class Document(QObject):
         if targets is None:
             self.set_anchors(AnchorSet.at(vertices, start))
         else:
-            self.set_anchors(AnchorSet({int(v): tuple(float(c) for c in t) for v, t in zip(vertices, targets, strict=True)}))
+            self.set_anchors(AnchorSet.to(vertices, targets))
 
     # ------------------------------------------------------------------------------------------ choices
 

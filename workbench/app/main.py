@@ -32,7 +32,7 @@ def run_window(
     from workbench.app.theme import ThemeSwitch
 
     settings = Settings(settings_file)
-    switch = ThemeSwitch(application, theme or settings.theme)
+    switch = ThemeSwitch(application, theme if theme in ("light", "dark") else settings.theme)
     window = MainWindow(switch, settings)
     window.show()
     window.start(source or "")

@@ -64,7 +64,7 @@ class PanelTurns(QObject):
                 begin = time.perf_counter()
                 panel.draw()
                 # the drawing itself comes with the next turn of the event loop: its end is seen from there
-                QTimer.singleShot(0, self, lambda: self._rest_after(begin))
+                QTimer.singleShot(0, self, lambda since=begin: self._rest_after(since))
                 return
 
     def _rest_after(self, begin: float) -> None:

@@ -113,7 +113,7 @@ class Reporter(QObject):
             names = ", ".join(failure.path.name for failure in failures)
             details = "\n\n".join(f"{failure.path}\n{failure.traceback}" for failure in failures)
             self._window.error_bar.show_message(
-                f"Plugins that could not be used, and are left out: {names}. Mend or remove them; `workbench doctor` lists them.",
+                f"Plugins that could not be used, and are left out: {names}. Mend or remove them.",
                 details=details,
             )
 
@@ -142,12 +142,13 @@ class Reporter(QObject):
         name = source_name(source)
         window.setWindowTitle(f"{name} – Distortion Workbench")
         mesh = loaded.mesh
-        window.source.caption.setText(f"{mesh.vertex_count:,} vertices, {mesh.simplex_count:,} triangles".replace(",", "\u2009"))
+        window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {counted(mesh.simplex_count)} triangles")
         window.source.caption.setToolTip("\n".join(loaded.lines))
         window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
         for pane in (window.source, window.target):
             pane.view.overlay.message = ""
-        window.actions_by_name["edges"].setChecked(bool(window.source.view.surface and window.source.view.surface.has_edges))
+        surface = window.source.view.surface
+        window.actions_by_name["edges"].setChecked(surface is not None and surface.has_edges)
 
     # ------------------------------------------------------------------------------------------ numbers
 
@@ -185,7 +186,7 @@ class Reporter(QObject):
         elif self._document.wants_to_run:
             self._window.status.say("The solver is starting.")
         else:
-            self._window.status.say("At rest. Space runs the solver; a click sets an anchor; drag anchors in the target.")
+            self._window.status.say("At rest. Space runs; a click sets an anchor; drag anchors in the target.")
 
     def show_numbers(self) -> None:
         """Bring the numbers of the status bar up to date."""
@@ -204,7 +205,8 @@ class Reporter(QObject):
         status.show_field("inverted", f"{row.inverted} inverted")
         delay = self.drag_meter.recent
         status.show_field("delay", f"drag {delay:.0f} ms" if delay is not None else "")
-        self._window.target.caption.setText(f"{len(self._document.anchors)} anchors" if len(self._document.anchors) else "no anchors")
+        count = len(self._document.anchors)
+        self._window.target.caption.setText(f"{count} anchor{'s' * (count != 1)}" if count else "no anchors")
 
     def _picture_sent(self, serial: int) -> None:
         self._drawn_serial = serial
@@ -230,3 +232,8 @@ def source_name(source: str) -> str:
     if is_sample(source):
         return source.removeprefix(SAMPLE).replace("-", " ").capitalize()
     return Path(source).name
+
+
+def counted(number: int) -> str:
+    """A count with thin spaces between the thousands."""
+    return f"{number:,}".replace(",", "\u2009")

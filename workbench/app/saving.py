@@ -29,7 +29,7 @@ class SaveRequest:
 
 
 class Saver(QObject):
-    """Reads the source again for what the window does not hold (polygons of the file, dropped vertices), then writes."""
+    """Reads the source again for what the window does not hold (the file's own faces), then writes."""
 
     saved = Signal(str)
     failed = Signal(str)
@@ -74,4 +74,20 @@ class Saver(QObject):
 
 def write(request: SaveRequest) -> None:
     """Write a map as the command line does. Raises `WorkbenchError`."""
-    raise WorkbenchError("Saving is not there yet.")
+    from workbench.io.opening import open_source
+    from workbench.io.write import write_map
+
+    loaded, session = request.loaded, request.session
+    opened = open_source(session.source, kind=loaded.kind, fixes=session.fixes)
+    if opened.mesh.vertex_count != loaded.mesh.vertex_count:
+        raise WorkbenchError(f"{session.source} was changed since it was opened; open it again, or save as npz.")
+    write_map(
+        request.path,
+        opened.file.mesh,
+        opened.mesh,
+        request.snapshot.positions,
+        opened.kind,
+        fields=request.snapshot.fields,
+        anchor_vertices=request.anchor_vertices,
+        anchor_targets=request.anchor_targets,
+    )

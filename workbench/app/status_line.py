@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QPaintEvent, QPainter
+from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
 
 FIELDS = (
@@ -21,17 +21,17 @@ FIELDS = (
 class ElidedLabel(QLabel):
     """A label that ends in an ellipsis where there is no room; the whole text is its tool tip."""
 
-    def setText(self, text: str) -> None:  # noqa: N802
+    def setText(self, text: str) -> None:
         if text != self.text():
             super().setText(text)
             self.setToolTip(text)
 
-    def minimumSizeHint(self):  # type: ignore[no-untyped-def]  # noqa: ANN201, N802
+    def minimumSizeHint(self):  # type: ignore[no-untyped-def]
         hint = super().minimumSizeHint()
         hint.setWidth(40)
         return hint
 
-    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802
+    def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
         text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideRight, self.width())
         painter.setPen(self.palette().windowText().color())

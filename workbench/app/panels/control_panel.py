@@ -101,7 +101,7 @@ class ControlPanel(QScrollArea):
         self.kind = QComboBox(group)
         for id, label in KIND_LABELS.items():
             self.kind.addItem(label, id)
-        self.kind.setToolTip("What is mapped to what. Automatic: a flat mesh to the plane, a surface in space to the plane.")
+        self.kind.setToolTip("What is mapped to what; automatic looks at the mesh.")
         self.kind.activated.connect(lambda _: self._document.open_again(kind=self.kind.currentData()))
         self.boundary = QComboBox(group)
         self.boundary.addItem("Free", False)
@@ -110,7 +110,7 @@ class ControlPanel(QScrollArea):
         self.scale = QComboBox(group)
         self.scale.addItem("Matched to the source's area", True)
         self.scale.addItem("Kept as the start has it", False)
-        self.scale.setToolTip("Whether the start is scaled to the total area of the source. Changing it makes the start anew.")
+        self.scale.setToolTip("Whether the start is scaled to the area of the source; a change makes it anew.")
         self.scale.activated.connect(lambda _: self._document.choose(match_area=self.scale.currentData()))
         layout.addRow("Kind", self.kind)
         layout.addRow("Boundary", self.boundary)

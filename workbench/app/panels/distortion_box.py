@@ -33,7 +33,7 @@ class DistortionBox(QWidget):
         self.combo.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
         self.combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.combo.setMinimumContentsLength(12)
-        self.combo.setToolTip("Choose a distortion, or type a formula in sigma, such as sum(sigma^2 + 1/sigma^2), and press Enter.")
+        self.combo.setToolTip("Choose one, or type a formula such as sum(sigma^2 + 1/sigma^2) and press Enter.")
         self.combo.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.combo.activated.connect(self._activated)
         edit = self.combo.lineEdit()
@@ -68,7 +68,8 @@ class DistortionBox(QWidget):
         for item in self._known.values():
             if not kind or kind in item.kinds:
                 self.combo.addItem(_title(item), item.id)
-                self.combo.setItemData(self.combo.count() - 1, item.description or item.formula, Qt.ItemDataRole.ToolTipRole)
+                tip = item.description or item.formula
+                self.combo.setItemData(self.combo.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.combo.blockSignals(False)
         self.show_choice(self._current, self.form.values)
 

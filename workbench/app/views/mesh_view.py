@@ -112,7 +112,7 @@ class MeshView(QWidget):
             self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels))
         self._wants_fit = True
 
-    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802
+    def resizeEvent(self, event: QResizeEvent) -> None:
         self.plotter.setGeometry(self.rect())
         self.overlay.setGeometry(self.rect())
         self.overlay.raise_()

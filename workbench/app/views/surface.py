@@ -148,7 +148,8 @@ class Surface:
         self._outlined = rows
         self._outline_actor.SetVisibility(len(rows) > 0)
         triangles = self.geometry.triangles[rows]
-        self._outline.SetLines(_lines(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])))
+        sides = [triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]
+        self._outline.SetLines(_lines(np.concatenate(sides)))
 
     def set_cut_edges(self, edges: Integers) -> None:
         """Edges (k, 2) that a cut opened: green."""

@@ -1,0 +1,170 @@
+"""A worker that answers at once, on the caller's thread, with a flat grid: the window's tests need no solver."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+from workbench.core.mesh import Mesh
+from workbench.core.status import Status
+from workbench.engine.messages import (
+    Command,
+    Failure,
+    HistoryRow,
+    Load,
+    Loaded,
+    Pause,
+    Ready,
+    Refused,
+    Report,
+    Reset,
+    Restarted,
+    Run,
+    SetAnchors,
+    Snapshot,
+    Step,
+)
+
+
+def grid_mesh(columns: int = 21, rows: int = 13) -> Mesh:
+    """A flat grid of (columns - 1) (rows - 1) 2 triangles over [0, 2] x [0, 1]."""
+    x, y = np.meshgrid(np.linspace(0, 2, columns), np.linspace(0, 1, rows))
+    index = np.arange(columns * rows).reshape(rows, columns)
+    a, b, c, d = index[:-1, :-1].ravel(), index[:-1, 1:].ravel(), index[1:, :-1].ravel(), index[1:, 1:].ravel()
+    return Mesh(np.c_[x.ravel(), y.ravel()], np.concatenate([np.c_[a, b, d], np.c_[a, d, c]]), name="grid")
+
+
+def bumpy_mesh(columns: int = 21, rows: int = 13) -> Mesh:
+    """The same grid as a surface in space."""
+    flat = grid_mesh(columns, rows)
+    x, y = flat.vertices.T
+    return Mesh(np.c_[x, y, 0.3 * np.sin(3 * x) * np.cos(2 * y)], flat.simplices, name="bumpy grid")
+
+
+class FakeWorker:
+    """Moves vertices towards anchors by a smooth blend; sources: grid, bumpy, closed, tets, raises."""
+
+    def __init__(self, wake: Callable[[], None]) -> None:
+        self._wake = wake
+        self._reports: list[Report] = []
+        self.commands: list[Command] = []
+        self.is_closed = False
+        self.stop_count = 0
+        self._mesh: Mesh | None = None
+        self._start = np.empty((0, 2))
+        self._positions = np.empty((0, 2))
+        self._generation = 0
+        self._serial = 0
+        self._iteration = 0
+        self._number = 0
+        self._running = False
+        self._dragging = False
+
+    def start(self) -> None:
+        self._tell(Ready(0.1))
+
+    def post(self, command: Command) -> None:
+        self.commands.append(command)
+        if isinstance(command, Load):
+            self._load(command)
+        elif self._mesh is None:
+            return
+        elif isinstance(command, SetAnchors):
+            self._serial, self._dragging = command.serial, command.dragging
+            if len(command.vertices):
+                self._blend(command)
+            self._publish()
+        elif isinstance(command, Reset):
+            self._positions, self._iteration = self._start.copy(), 0
+            self._publish()
+        elif isinstance(command, Run | Step | Pause):
+            self._running = isinstance(command, Run)
+            self._publish()
+
+    def take(self) -> list[Report]:
+        taken, self._reports = self._reports, []
+        return taken
+
+    def stop(self) -> None:
+        self.stop_count += 1
+        self._running = False
+        self._tell(Restarted("The engine was stopped and started again on the last good map."))
+
+    def close(self) -> None:
+        self.is_closed = True
+
+    # ------------------------------------------------------------------------------------------
+
+    def _tell(self, report: Report) -> None:
+        self._reports.append(report)
+        self._wake()
+
+    def _load(self, command: Load) -> None:
+        source = command.source
+        if "closed" in source and "cut" not in command.fixes:
+            self._tell(Refused(command.generation, "Load", "The surface is closed; cut it open.", ("cut",), ("1 component",)))
+            return
+        if "raises" in source:
+            self._tell(Failure(command.generation, "The plugin raised ValueError.", "Traceback ..."))
+            return
+        cut = np.array([[0, 1], [1, 2]]) if "closed" in source else np.empty((0, 2), np.int64)
+        if "tets" in source:
+            corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+            mesh = Mesh(corners, np.array([[0, 1, 2, 3]]))
+            self._tell(Loaded(command.generation, mesh, "volume", ("1 tetrahedron",), cut, source))
+            return
+        mesh = grid_mesh() if "grid" in source else bumpy_mesh()
+        self._mesh, self._generation = mesh, command.generation
+        self._start = mesh.vertices[:, :2].copy()
+        self._positions, self._iteration, self._running = self._start.copy(), 0, False
+        kind = "plane" if mesh.vertices.shape[1] == 2 else "parameterize"
+        lines = (f"{mesh.vertex_count} vertices, {mesh.simplex_count} triangles", "1 component")
+        self._tell(Loaded(command.generation, mesh, kind, lines, cut, source, command.fixes))
+        self._publish()
+
+    def _blend(self, command: SetAnchors) -> None:
+        """Inverse-distance blend of the anchors' displacements."""
+        offset = command.targets - self._start[command.vertices]
+        distance = np.linalg.norm(self._start[:, None] - self._start[command.vertices][None], axis=2)
+        weights = 1.0 / (distance**2 + 1e-6)
+        self._positions = self._start + (weights / weights.sum(axis=1, keepdims=True)) @ offset
+
+    def _publish(self) -> None:
+        assert self._mesh is not None
+        self._number += 1
+        self._iteration += 1
+        corners = self._positions[self._mesh.simplices]
+        rest = self._start[self._mesh.simplices]
+        u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        p, q = rest[:, 1] - rest[:, 0], rest[:, 2] - rest[:, 0]
+        area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+        stretch = area / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
+        sigma = np.sqrt(np.abs(stretch))
+        inverted = area <= 0
+        counts, edges = np.histogram(sigma, bins=24)
+        energy = float((sigma**2 + 1 / np.maximum(sigma, 1e-3) ** 2).mean())
+        row = HistoryRow(self._iteration, 0.01 * self._iteration, energy, energy, 1 / self._iteration, 1.0, int(inverted.sum()), 0.0)
+        phase = "dragging" if self._dragging and self._running else "running" if self._running else "idle"
+        self._tell(
+            Snapshot(
+                self._generation,
+                self._number,
+                self._positions.copy(),
+                phase,
+                Status.RUNNING,
+                row,
+                inverted,
+                {
+                    "dirichlet": (2 * sigma**2).astype(np.float32),
+                    "condition-number": (1 + np.abs(sigma - 1)).astype(np.float32),
+                    "symmetric-dirichlet": (2 * sigma**2 + 2 / np.maximum(sigma, 1e-3) ** 2).astype(np.float32),
+                },
+                (edges, counts),
+                anchor_serial=self._serial,
+                limiting_simplex=5 if self._dragging else -1,
+                seconds_published=time.perf_counter(),
+                rows=(row,),
+            )
+        )
