@@ -32,6 +32,8 @@ PATIENCE = 40
 """Steps without progress, each after a relaxation, before the run counts as stalled."""
 CHEAP_FACTORISATION = 0.020
 """Seconds; a factorisation below this is made whenever it helps."""
+SETTLED = 1e-7
+"""Relative gain below which corrections with the last factor stop until something moves."""
 DUTY = 0.05
 """Part of the time that dearer factorisations may take while a hand moves."""
 
@@ -78,6 +80,29 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         return replace(state, status=Status.SINGULAR)
     with problem.workspace.timed("line_search"):
         return _push(problem, state, evaluation.energy, evaluation.gradient, direction, fresh, interrupt)
+
+
+def correct_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State:
+    """A descent step with the last factor while a hand holds still for a moment; `step_size` 0 where it gains nothing.
+
+    A fresh factor is made only where it is missing, or poor and affordable.
+    """
+    x, system = state.positions, problem.system
+    fresh = not system.serves(problem.anchors.hard_vertices) or (state.approach.refresh and _affordable(problem))
+    evaluation = problem.evaluate(x, 2 if fresh else 1)
+    if not math.isfinite(evaluation.energy):
+        return replace(state, status=Status.NONFINITE)
+    if fresh:
+        try:
+            system.factorise(evaluation.hessian_values, problem.anchors.hard_vertices)
+        except SingularMatrixError:
+            return replace(state, status=Status.SINGULAR)
+        system.factorised_at = time.perf_counter_ns()
+    following = _relax(problem, state, evaluation.energy, evaluation.gradient, interrupt)
+    gain = evaluation.energy - following.energy
+    if following.status is Status.RUNNING and gain <= SETTLED * abs(evaluation.energy):
+        following = replace(following, step_size=0.0)
+    return replace(following, approach=replace(state.approach, refresh=following.step_size < 0.5))
 
 
 def _push(

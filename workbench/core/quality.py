@@ -9,7 +9,6 @@ import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.distortion import Distortion
-from workbench.core.injectivity import global_injectivity, local_injectivity
 from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
 from workbench.core.mesh import Mesh
 
@@ -73,6 +72,7 @@ def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:
     dict     measures {id: {mean, max, min, p50, p95, area_weighted_mean}} of every registered distortion and of (78),
              inverted, degenerate, min_det, injective {local, global, reason}, histogram78 {edges, counts}
     """
+    from workbench.core.injectivity import global_injectivity, local_injectivity
     from workbench.core.registry import registry
 
     elements = build_elements(mesh)

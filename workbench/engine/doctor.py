@@ -27,7 +27,7 @@ print(application.platformName())
 
 @dataclass(frozen=True)
 class Finding:
-    """One line: `good` false marks what needs the user's attention, `remedy` what to do about it, `details` what stands below it."""
+    """One line; `good` false marks what needs the user's attention, `remedy` says what to do, `details` stand below."""
 
     name: str
     value: str
@@ -99,7 +99,11 @@ def plugins() -> Section:
     findings = [
         Finding("built-in plugins", str(own), good=own.is_dir()),
         Finding("your plugins", f"{folder}{'' if folder.is_dir() else ' (make it to add methods of your own)'}"),
-        Finding("methods", f"{len(found.distortions)} distortions, {len(found.solvers)} solvers, {len(found.initializers)} initializers"),
+        Finding(
+            "methods",
+            f"{len(found.distortions)} distortions, {len(found.solvers)} solvers, "
+            f"{len(found.initializers)} initializers",
+        ),
     ]
     for failure in found.failures:
         remedy = "mend the file or move it away"
@@ -136,10 +140,14 @@ def graphics() -> Section:
 
 def _display() -> Finding:
     if not installed_version("PySide6-Essentials"):
-        return Finding("window", "Qt is not installed; the command line works without it", False, f"pip install {DISTRIBUTION}")
+        return Finding(
+            "window", "Qt is not installed; the command line works without it", False, f"pip install {DISTRIBUTION}"
+        )
     if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         remedy = "start it in a desktop session, or under a virtual screen: xvfb-run workbench"
-        return Finding("window", "there is no display (DISPLAY is not set); the command line works without it", True, remedy)
+        return Finding(
+            "window", "there is no display (DISPLAY is not set); the command line works without it", True, remedy
+        )
     try:
         probe = subprocess.run([sys.executable, "-c", PROBE], capture_output=True, text=True, timeout=60, check=False)
     except subprocess.TimeoutExpired:

@@ -9,6 +9,7 @@ import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.mesh import Mesh
+from workbench.core.method import Kind
 from workbench.core.run import HistoryRow
 from workbench.core.status import Status
 
@@ -107,6 +108,18 @@ class Reset(Command):
     parameters: dict[str, Any] = field(default_factory=dict)
     file: str = ""
     match_area: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class Restore(Command):
+    """Go on from a map of a mesh that was loaded before: what the worker sends to a new process after a crash."""
+
+    generation: int
+    mesh: Mesh
+    kind: Kind
+    positions: Floats
+    iteration: int
+    number: int
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class SystemLibrary:
-    """A shared library by the name that the loader knows, the Debian/Ubuntu package that holds it, and what it is for."""
+    """A shared library by the name that the loader knows, its Debian/Ubuntu package, and what it is for."""
 
     name: str
     package: str

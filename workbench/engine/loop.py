@@ -1,0 +1,432 @@
+"""The engine's loop as a plain object: commands in, reports out; it runs in the child process and inline alike."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from workbench.core.anchor_steps import approach_anchors, correct_with_last_factor
+from workbench.core.arrays import Floats
+from workbench.core.constraints import Anchors
+from workbench.core.distortion import Distortion
+from workbench.core.errors import WorkbenchError
+from workbench.core.mesh import Mesh
+from workbench.core.method import Kind
+from workbench.core.problem import Criteria, Problem
+from workbench.core.run import HistoryRow, history_row
+from workbench.core.registry import registry
+from workbench.core.solver import Solver
+from workbench.core.state import State
+from workbench.core.status import Status
+from workbench.engine.messages import (
+    Command,
+    Failure,
+    Load,
+    Loaded,
+    Pause,
+    Progress,
+    Quit,
+    Refused,
+    Report,
+    Reset,
+    Restore,
+    Run,
+    SetAnchors,
+    SetProblem,
+    SetSolver,
+    Step,
+)
+from workbench.engine.starts import adjusted_start, make_start
+
+HAND_RESTS = 0.12
+"""Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
+
+
+@dataclass(frozen=True, eq=False)
+class MapReport(Report):
+    """A snapshot without what the window derives from the positions (see `workbench.engine.messages.Snapshot`)."""
+
+    generation: int
+    number: int
+    positions: Floats
+    phase: str
+    status: Status
+    rows: tuple[HistoryRow, ...]
+    anchor_serial: int
+    limiting_simplex: int
+    inverted: int
+    seconds_published: float
+    timing: dict[str, float]
+    solver: str
+    distortion: str
+
+
+class EngineLoop:
+    """One mesh, one problem, one solver, one map; `handle` and `advance` are called in turn by whoever owns it."""
+
+    def __init__(self, publish: Callable[[Report], None], pending: Callable[[], bool] = lambda: False) -> None:
+        """`publish` takes every report; `pending` tells whether a command other than `SetAnchors` waits."""
+        self._publish = publish
+        self._pending = pending
+        self._generation = 0
+        self._mesh: Mesh | None = None
+        self._kind: Kind = "plane"
+        self._file_start: Floats | None = None
+        self._choices = SetProblem()
+        self._solver_choice = SetSolver()
+        self._reset = Reset()
+        self._anchors: SetAnchors | None = None
+        self._boundary_positions: Floats | None = None
+        self._solver: Solver | None = None
+        self._problem: Problem | None = None
+        self._state: State | None = None
+        self._running = False
+        self._steps_left = 0
+        self._limits = Run()
+        self._run_iterations = 0
+        self._run_begin = 0.0
+        self._seconds = 0.0
+        self._rows: list[HistoryRow] = []
+        self._number = 0
+        self._last_anchor_command = 0.0
+        self._timing: dict[str, float] = {}
+        self._settled = False
+        self.has_quit = False
+
+    # ----------------------------------------------------------------------------------------- commands
+
+    def handle(self, command: Command) -> None:
+        """Carry out a command; what goes wrong becomes a `Refused` or `Failure` report."""
+        try:
+            self._dispatch(command)
+        except WorkbenchError as error:
+            self._publish(
+                Refused(self._generation_of(command), type(command).__name__, error.sentence, error.fixes, _lines_of(error))
+            )
+        except Exception as error:
+            self._fail(f"{type(command).__name__} failed: {type(error).__name__}: {error}", traceback.format_exc())
+
+    def _generation_of(self, command: Command) -> int:
+        return command.generation if isinstance(command, Load) else self._generation
+
+    def _dispatch(self, command: Command) -> None:
+        if isinstance(command, Load):
+            self._load(command)
+        elif isinstance(command, Restore):
+            self._restore(command)
+        elif isinstance(command, SetProblem):
+            self._set_problem(command)
+        elif isinstance(command, SetSolver):
+            self._set_solver(command)
+        elif isinstance(command, SetAnchors):
+            self._set_anchors(command)
+        elif isinstance(command, Reset):
+            self._make_start(command)
+        elif isinstance(command, Run):
+            self._limits, self._running, self._steps_left = command, True, 0
+            self._begin_run()
+        elif isinstance(command, Pause):
+            self._running, self._steps_left = False, 0
+            self.publish_map()
+        elif isinstance(command, Step):
+            self._running, self._steps_left = False, self._steps_left + command.count
+            self._begin_run()
+        elif isinstance(command, Quit):
+            self.has_quit = True
+
+    def _load(self, command: Load) -> None:
+        from workbench.io.opening import open_source
+
+        self._publish(Progress(f"Reading {command.source} …"))
+        opened = open_source(command.source, kind=command.kind, fixes=command.fixes, tets=command.tets)
+        self._generation = command.generation
+        self._mesh, self._kind, self._file_start = opened.mesh, opened.kind, opened.start
+        self._running, self._steps_left, self._anchors = False, 0, None
+        self._problem = self._state = self._boundary_positions = None
+        self._publish(
+            Loaded(
+                generation=command.generation,
+                mesh=opened.mesh,
+                kind=opened.kind,
+                lines=opened.lines,
+                cut_edges=opened.cut_edges,
+                source=command.source,
+                fixes=command.fixes,
+                anchor_vertices=opened.anchor_vertices,
+                anchor_targets=opened.anchor_targets,
+            )
+        )
+        distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
+        self._problem = Problem.create(
+            opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions
+        )
+        self._make_start(replace(self._reset, file="", initializer="", parameters={}) if self._reset.file else self._reset)
+
+    def _restore(self, command: Restore) -> None:
+        self._generation, self._mesh, self._kind = command.generation, command.mesh, command.kind
+        self._file_start = command.positions
+        distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
+        self._problem = Problem.create(
+            command.mesh, command.kind, distortion, allow_inversions=self._choices.allow_inversions
+        )
+        self._number = command.number
+        self._start_from(command.positions, command.iteration)
+        self._file_start = None
+
+    def _make_start(self, command: Reset) -> None:
+        if self._mesh is None:
+            self._reset = command
+            return
+        assert self._problem is not None
+        if self._file_start is not None and not command.initializer:
+            start = adjusted_start(self._mesh, self._kind, self._file_start, False)
+        else:
+            if command.initializer or self._mesh.simplex_count > 20_000:
+                self._publish(Progress("Making the start …"))
+            start = make_start(
+                self._mesh, self._kind, command.initializer, command.parameters, command.file, command.match_area
+            )
+        self._reset = command
+        self._seconds = 0.0
+        self._start_from(start, 0)
+
+    def _start_from(self, start: Floats, iteration: int) -> None:
+        assert self._problem is not None
+        self._solver = self._configured_solver()
+        if self._choices.fixed_boundary:
+            self._boundary_positions = start[self._boundary()].copy()
+        self._problem = self._problem.with_anchors(self._all_anchors())
+        self._state = replace(self._solver.init(self._problem, start), iteration=iteration)
+        self._rows = [history_row(self._problem, self._state, self._seconds)]
+        self._settled = False
+        self._begin_run()
+        self.publish_map()
+
+    def _set_problem(self, command: SetProblem) -> None:
+        distortion = Distortion.resolve(command.distortion, command.parameters)
+        boundary_changes = command.fixed_boundary != self._choices.fixed_boundary
+        same = (
+            command.distortion == self._choices.distortion
+            and command.parameters == self._choices.parameters
+            and command.allow_inversions == self._choices.allow_inversions
+        )
+        if self._problem is not None:
+            # Whatever refuses the new distortion (a dimension it does not have, say) leaves the old one in force.
+            changed = self._problem if same else self._problem.with_distortion(distortion, command.allow_inversions)
+            self._choices = command
+            self._problem = changed
+            if boundary_changes:
+                self._boundary_positions = (
+                    self._current().positions[self._boundary()].copy() if command.fixed_boundary else None
+                )
+            self._rebase()
+        self._choices = command
+
+    def _set_solver(self, command: SetSolver) -> None:
+        registry().solver(command.solver).configured(command.parameters)
+        self._solver_choice = command
+        if self._state is not None:
+            self._solver = self._configured_solver()
+            self._rebase()
+
+    def _configured_solver(self) -> Solver:
+        method = registry().solver(self._solver_choice.solver)
+        if self._kind not in method.kinds:
+            raise WorkbenchError(f"{method.label} does not solve {self._kind} maps; choose another solver.")
+        solver: Solver = method.configured(self._solver_choice.parameters)
+        return solver
+
+    def _set_anchors(self, command: SetAnchors) -> None:
+        self._last_anchor_command = time.perf_counter()
+        previous, self._anchors = self._anchors, command
+        if self._problem is None or self._state is None:
+            return
+        try:
+            anchors = self._all_anchors()
+            anchors.check(self._problem.mesh.vertex_count, self._problem.dimension)
+        except WorkbenchError:
+            self._anchors = previous
+            raise
+        old = self._problem.anchors
+        self._problem = self._problem.with_anchors(anchors)
+        if np.array_equal(old.hard_vertices, anchors.hard_vertices) and not len(anchors.soft[0]):
+            # Only targets moved: the energy and what the walk has learnt so far stay true.
+            state = self._state
+            self._state = replace(
+                state,
+                anchor_error=self._problem.anchor_error(state.positions),
+                previous_energy=float("nan"),
+                status=Status.RUNNING if state.status is not Status.INVERTED_START else state.status,
+                memory=None,
+                approach=replace(state.approach, stuck=0),
+            )
+            self._settled = False
+            self._begin_run()
+        else:
+            self._rebase()
+        if not self.is_active:
+            self.publish_map()
+
+    def _boundary(self) -> np.ndarray:
+        assert self._mesh is not None
+        return self._mesh.topology.boundary_vertices
+
+    def _all_anchors(self) -> Anchors:
+        assert self._mesh is not None
+        anchors = Anchors.none(self._mesh.dimension)
+        if self._anchors is not None and len(self._anchors.vertices):
+            anchors = Anchors(self._anchors.vertices, self._anchors.targets, self._anchors.weights)
+        if self._boundary_positions is not None:
+            anchors = anchors.with_added(self._boundary(), self._boundary_positions)
+        return anchors
+
+    def _current(self) -> State:
+        assert self._state is not None
+        return self._state
+
+    def _rebase(self) -> None:
+        assert self._problem is not None and self._solver is not None
+        self._problem = self._problem.with_anchors(self._all_anchors())
+        state = self._solver.rebase(self._problem, self._current())
+        if state.inverted and self._problem.density.has_barrier:
+            state = replace(state, status=Status.INVERTED_START)
+        self._state = state
+        self._settled = False
+        self._begin_run()
+        if not self.is_active:
+            self.publish_map()
+
+    def _begin_run(self) -> None:
+        self._run_iterations, self._run_begin = 0, self._seconds
+        if self._state is not None:
+            if self._problem is not None:
+                self._problem = self._problem.with_criteria(Criteria(self._limits.tolerance))
+            limited = self._state.status in (Status.MAX_ITERATIONS, Status.TIME_LIMIT, Status.INTERRUPTED)
+            if limited or (self._steps_left and self._state.status is not Status.INVERTED_START):
+                self._state = replace(self._state, status=Status.RUNNING, previous_energy=float("nan"))
+
+    # -------------------------------------------------------------------------------------------- steps
+
+    @property
+    def is_active(self) -> bool:
+        """Whether `advance` has something to do."""
+        wants = self._running or self._steps_left > 0
+        return wants and self._state is not None and self._state.status is Status.RUNNING
+
+    @property
+    def phase(self) -> str:
+        if self._state is None or not (self._running or self._steps_left):
+            return "idle"
+        if self._state.status is not Status.RUNNING:
+            return "finished"
+        return "dragging" if self._is_dragging else "running"
+
+    @property
+    def _is_dragging(self) -> bool:
+        return self._anchors is not None and self._anchors.dragging
+
+    def advance(self) -> bool:
+        """One iteration, if there is one to take; false when the map is settled and only a new command can change it."""
+        if not self.is_active:
+            return False
+        problem, state, solver = self._problem, self._current(), self._solver
+        assert problem is not None and solver is not None
+        begin = time.perf_counter()
+        before = problem.workspace.all_seconds()
+        try:
+            following = self._step(problem, state, solver)
+        except Exception as error:
+            self._running, self._steps_left = False, 0
+            self._fail(f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}", traceback.format_exc())
+            self.publish_map()
+            return False
+        if following is None:
+            return False
+        elapsed = time.perf_counter() - begin
+        self._seconds += elapsed
+        after = problem.workspace.all_seconds()
+        self._timing = {k: after[k] - before.get(k, 0.0) for k in after}
+        self._take_up(problem, solver, state, following)
+        return True
+
+    def _step(self, problem: Problem, state: State, solver: Solver) -> State | None:
+        hand_moves = self._is_dragging and time.perf_counter() - self._last_anchor_command < HAND_RESTS
+        if hand_moves and self._running:
+            if problem.anchors_lag(state.positions):
+                return approach_anchors(problem, state, self._pending, eager=False)
+            if self._settled:
+                return None
+            following = correct_with_last_factor(problem, state, self._pending)
+            self._settled = following.step_size == 0.0
+            return following
+        return solver.step(problem, state, self._pending)
+
+    def _take_up(self, problem: Problem, solver: Solver, state: State, following: State) -> None:
+        if following.status is Status.INTERRUPTED:
+            self._state = replace(following, status=Status.RUNNING)
+            return
+        if not np.isfinite(following.positions).all():
+            following = replace(state, status=Status.NONFINITE)
+        elif state.inverted == 0 and problem.forbids_inversions and problem.inverted(following.positions):
+            # A solver that breaks the law (a plugin, say) is stopped on the last good map.
+            self._running, self._steps_left = False, 0
+            self._fail(f"{solver.label} made a map with inverted simplices; the last good map is kept.", "")
+            self.publish_map()
+            return
+        hand = self._is_dragging and following.status is Status.RUNNING
+        status = following.status if hand and problem.anchors_lag(following.positions) else solver.terminate(problem, following)
+        if hand and status is Status.CONVERGED and time.perf_counter() - self._last_anchor_command < HAND_RESTS:
+            status = Status.RUNNING
+        if following.iteration > state.iteration:
+            self._run_iterations += 1
+            if self._steps_left:
+                self._steps_left -= 1
+            self._rows.append(history_row(problem, following, self._seconds))
+        if status is Status.RUNNING and self._running:
+            if self._run_iterations >= self._limits.iterations:
+                status = Status.MAX_ITERATIONS
+            elif self._seconds - self._run_begin >= self._limits.time_limit:
+                status = Status.TIME_LIMIT
+        self._state = replace(following, status=status)
+        if status is not Status.RUNNING:
+            self._steps_left = 0
+        self.publish_map()
+
+    # ------------------------------------------------------------------------------------------ reports
+
+    def publish_map(self) -> None:
+        """Report the map as it is now, with all history since the last report."""
+        state, problem = self._state, self._problem
+        if state is None or problem is None:
+            return
+        self._number += 1
+        rows, self._rows = tuple(self._rows) or (history_row(problem, state, self._seconds),), []
+        self._publish(
+            MapReport(
+                generation=self._generation,
+                number=self._number,
+                positions=state.positions,
+                phase=self.phase,
+                status=state.status,
+                rows=rows,
+                anchor_serial=self._anchors.serial if self._anchors else 0,
+                limiting_simplex=state.limiting_simplex if problem.anchors_lag(state.positions) else -1,
+                inverted=state.inverted,
+                seconds_published=time.perf_counter(),
+                timing=self._timing,
+                solver=self._solver_choice.solver,
+                distortion=problem.distortion.id,
+            )
+        )
+
+    def _fail(self, sentence: str, details: str) -> None:
+        self._publish(Failure(self._generation, sentence, details))
+
+
+def _lines_of(error: WorkbenchError) -> tuple[str, ...]:
+    """The report on load that an error of `open_source` carries, where it could read the mesh."""
+    return tuple(getattr(error, "lines", ()))

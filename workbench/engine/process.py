@@ -1,0 +1,154 @@
+"""The engine process: drain the pipe, take a step, publish; spawned, never forked."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from multiprocessing.connection import Connection
+
+from workbench.engine.loop import EngineLoop, MapReport
+from workbench.engine.messages import Command, Progress, Ready, Report, SetAnchors, Step
+from workbench.engine.shared_positions import PositionRing
+
+PUBLISH_INTERVAL = 0.004
+"""Seconds; quicker maps than this are not worth a message unless they are news of an anchor or of the end."""
+NAP = 0.010
+
+
+class CommandBox:
+    """Commands that wait: of each class the newest, in order of arrival; step counts add up."""
+
+    def __init__(self) -> None:
+        self._waiting: dict[type[Command], Command] = {}
+
+    def put(self, command: Command) -> None:
+        kind = type(command)
+        earlier = self._waiting.pop(kind, None)
+        if isinstance(command, Step) and isinstance(earlier, Step):
+            command = Step(command.count + earlier.count)
+        self._waiting[kind] = command
+
+    def take_all(self) -> list[Command]:
+        commands = list(self._waiting.values())
+        self._waiting.clear()
+        return commands
+
+    def __bool__(self) -> bool:
+        return bool(self._waiting)
+
+    @property
+    def interrupts(self) -> bool:
+        """Whether something waits that a step gives way to; anchors do not interrupt a step."""
+        return any(kind is not SetAnchors for kind in self._waiting)
+
+
+class _Publisher:
+    """Sends reports; positions go through shared memory, the small rest through the pipe."""
+
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self._ring: PositionRing | None = None
+        self._held: MapReport | None = None
+        self._last_sent = 0.0
+        self._last_serial = -1
+
+    def __call__(self, report: Report) -> None:
+        if not isinstance(report, MapReport):
+            self.flush()
+            self._connection.send(report)
+            return
+        if self._held is not None:
+            report = replace(report, rows=self._held.rows + report.rows)
+        self._held = report
+        is_news = report.anchor_serial != self._last_serial or report.phase in ("idle", "finished")
+        if is_news or time.perf_counter() - self._last_sent >= PUBLISH_INTERVAL:
+            self.flush()
+
+    def flush(self) -> None:
+        """Send the map that is held back, if there is one."""
+        report, self._held = self._held, None
+        if report is None:
+            return
+        shape = (report.positions.shape[0], report.positions.shape[1])
+        if self._ring is None or self._ring.shape != shape:
+            if self._ring is not None:
+                self._ring.close()
+            self._ring = PositionRing(shape)
+            self._connection.send((self._ring.name, shape))
+        self._ring.write(report.number, report.positions)
+        self._connection.send(replace(report, positions=None, seconds_published=time.perf_counter()))
+        self._last_sent, self._last_serial = time.perf_counter(), report.anchor_serial
+
+
+def engine_main(connection: Connection, spawned_at: float, threads: int) -> None:
+    """Body of the child process; ends with `Quit`, or when the pipe breaks."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal is for the window
+    from workbench.core.threads import set_thread_count
+
+    if threads:
+        set_thread_count(threads)
+    box = CommandBox()
+
+    def drain() -> None:
+        while connection.poll():
+            box.put(connection.recv())
+
+    def pending() -> bool:
+        drain()
+        return box.interrupts
+
+    publisher = _Publisher(connection)
+    loop = EngineLoop(publisher, pending)
+    try:
+        warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
+        publisher(Ready(time.time() - spawned_at))
+        while not loop.has_quit:
+            drain()
+            for command in box.take_all():
+                loop.handle(command)
+            if not loop.advance():
+                publisher.flush()
+                connection.poll(NAP if loop.is_active else None)
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        pass
+    finally:
+        connection.close()
+        os._exit(0)  # threads of a plugin or of BLAS shall not keep the process
+
+
+def warm_up(tell: Callable[[], None]) -> None:
+    """Load (or, the first time ever, compile) every kernel on one simplex, so that no drag waits for it."""
+    import numpy as np
+
+    from workbench.core.anchor_steps import approach_anchors
+    from workbench.core.constraints import Anchors
+    from workbench.core.distortion import Distortion
+    from workbench.core.jacobians import determinants, signed_singular_values
+    from workbench.core.line_search import largest_step
+    from workbench.core.mesh import Mesh
+    from workbench.core.problem import Problem
+    from workbench.core.solver import never
+    from workbench.core.state import State
+    from workbench.core.tape import run_tape
+
+    if not _is_cached(run_tape):
+        tell()
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
+    mesh = Mesh(corners, np.array([[0, 1, 2], [1, 3, 2]]))
+    distortion = Distortion("warm", "warm", "sum(sigma^2 + 1/sigma^2)")
+    problem = Problem.create(mesh, "plane", distortion, Anchors(np.array([0]), np.array([[0.0, -0.1]])))
+    approach_anchors(problem, State(corners, anchor_error=0.1), never)
+    problem.energy(corners)
+    largest_step(corners, corners[::-1].copy(), mesh.simplices)
+    determinants(problem.elements, corners)
+    signed_singular_values(problem.elements, corners)
+
+
+def _is_cached(kernel: object) -> bool:
+    """Whether a kernel was compiled in an earlier run (numba keeps an index file beside its cache)."""
+    cache = getattr(kernel, "_cache", None)
+    path = getattr(getattr(cache, "_cache_file", None), "_index_path", "")
+    return bool(path) and os.path.exists(path)

@@ -1,0 +1,370 @@
+"""The background thread that owns the engine process: the window posts commands and takes reports, and never waits."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import multiprocessing.connection
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import replace
+from multiprocessing.connection import Connection
+from typing import Any
+
+from workbench.core.jacobians import Elements, build_elements
+from workbench.core.quality import live_measures
+from workbench.engine.loop import MapReport
+from workbench.engine.messages import (
+    Command,
+    Failure,
+    Load,
+    Loaded,
+    Pause,
+    Quit,
+    Ready,
+    Refused,
+    Report,
+    Reset,
+    Restarted,
+    Restore,
+    Run,
+    SetAnchors,
+    SetProblem,
+    SetSolver,
+    Snapshot,
+    Step,
+)
+from workbench.engine.process import CommandBox, engine_main
+from workbench.engine.shared_positions import PositionRing
+
+QUIT_PATIENCE = 0.5
+"""Seconds that a child has to leave by itself when the window closes."""
+CRASHES_IN_A_ROW = 3
+"""Deaths without a map in between after which the worker stops restarting and says so."""
+
+
+class EngineWorker:
+    """Runs the engine process and keeps it alive."""
+
+    def __init__(
+        self,
+        wake: Callable[[], None],
+        *,
+        threads: int = 0,
+        on_snapshot: Callable[[Snapshot], None] | None = None,
+        with_fields: bool = True,
+    ) -> None:
+        """`wake` is called on the worker's thread when reports wait.
+
+        `on_snapshot` (tests, benchmarks) is told every map that is read, on the worker's thread; `with_fields` false leaves
+        out the colour fields and the histogram; `threads` is the kernels' thread count in the child, 0 for its default.
+        """
+        self._wake = wake
+        self._threads = threads
+        self._on_snapshot = on_snapshot
+        self._with_fields = with_fields
+        self._lock = threading.Lock()
+        self._outbox = CommandBox()
+        self._reports: list[Report] = []
+        self._snapshot: Snapshot | None = None
+        self._bell, self._rope = multiprocessing.Pipe(duplex=False)
+        self._stop_asked = False
+        self._closing = False
+        self._thread = threading.Thread(target=self._main, name="engine-worker", daemon=True)
+        # What the thread alone touches:
+        self._process: Any = None
+        self._connection: Connection | None = None
+        self._ring: PositionRing | None = None
+        self._elements: Elements | None = None
+        self._loaded: Loaded | None = None
+        self._loading: Load | None = None
+        self._last_map: MapReport | None = None
+        self._settings: dict[type[Command], Command] = {}
+        self._running: Run | None = None
+        self._crashes = 0
+        self._unread_rows: tuple[Any, ...] = ()
+
+    # ------------------------------------------------------------------------- called by the window's thread
+
+    def start(self) -> None:
+        """Spawn the child process and the thread that owns it."""
+        self._thread.start()
+
+    def post(self, command: Command) -> None:
+        """Queue a command; returns at once. Newest of its kind wins."""
+        with self._lock:
+            self._outbox.put(command)
+        self._ring_bell()
+
+    def take(self) -> list[Report]:
+        """Every report since the last call; of snapshots only the newest, its `rows` are all since then."""
+        with self._lock:
+            reports, self._reports = self._reports, []
+            if self._snapshot is not None:
+                reports.append(self._snapshot)
+                self._snapshot = None
+        return reports
+
+    def stop(self) -> None:
+        """End whatever the engine does, a step that hangs included: the child is killed and restarted on the last good map."""
+        with self._lock:
+            self._stop_asked = True
+            self._outbox.take_all()
+        self._ring_bell()
+
+    def close(self) -> None:
+        """Quit the child and join the thread."""
+        if self._closing:
+            return
+        self._closing = True
+        self._ring_bell()
+        if self._thread.ident is not None:
+            self._thread.join(timeout=10.0)
+
+    @property
+    def process_id(self) -> int | None:
+        """Of the engine process, None while there is none."""
+        process = self._process
+        return process.pid if process is not None and process.is_alive() else None
+
+    def _ring_bell(self) -> None:
+        with contextlib.suppress(OSError):
+            self._rope.send_bytes(b"!")
+
+    # ----------------------------------------------------------------------------------- the thread's own
+
+    def _main(self) -> None:
+        # One kernel thread is enough for the colours; the cores belong to the solver and to drawing.
+        try:
+            self._spawn()
+            while not self._closing:
+                self._turn()
+        except Exception as error:
+            self._report(Failure(self._generation, f"The engine's owner failed: {error}. Restart the program.", traceback.format_exc()))
+        finally:
+            self._end_process()
+
+    @property
+    def _generation(self) -> int:
+        return self._loaded.generation if self._loaded else 0
+
+    def _turn(self) -> None:
+        assert self._connection is not None and self._process is not None
+        ready = multiprocessing.connection.wait([self._bell, self._connection, self._process.sentinel])
+        if self._bell in ready:
+            while self._bell.poll():
+                self._bell.recv_bytes()
+        with self._lock:
+            stop_asked, self._stop_asked = self._stop_asked, False
+        if stop_asked and not self._closing:
+            self._restart("Stopped: the engine was restarted on the last good map.", resume=False)
+            return
+        if self._connection in ready and not self._receive():
+            self._crashed()
+            return
+        if self._process.sentinel in ready and not self._connection.poll():
+            self._crashed()
+            return
+        self._send_commands()
+
+    def _send_commands(self) -> None:
+        with self._lock:
+            commands = self._outbox.take_all()
+        for command in commands:
+            self._remember(command)
+            self._send(command)
+
+    def _send(self, command: Command) -> None:
+        assert self._connection is not None
+        with contextlib.suppress(OSError):  # a dead child shows up at its sentinel
+            self._connection.send(command)
+
+    def _remember(self, command: Command) -> None:
+        """Keep what a new process must be told to go on like the old one."""
+        if isinstance(command, SetProblem | SetSolver | SetAnchors | Reset):
+            self._settings[type(command)] = command
+        elif isinstance(command, Run):
+            self._running = command
+        elif isinstance(command, Pause | Step):
+            self._running = None
+        elif isinstance(command, Load):
+            self._loading = command
+            self._running = None
+            self._settings.pop(SetAnchors, None)
+
+    # ------------------------------------------------------------------------------------------ reports
+
+    def _receive(self) -> bool:
+        """Take everything from the pipe; false when it is broken."""
+        assert self._connection is not None
+        newest: MapReport | None = None
+        alive = True
+        try:
+            while self._connection.poll():
+                message = self._connection.recv()
+                if isinstance(message, MapReport):
+                    self._unread_rows += message.rows
+                    newest = message
+                elif isinstance(message, tuple):
+                    newest = self._flush(newest)
+                    self._attach(*message)
+                else:
+                    newest = self._flush(newest)
+                    self._take_report(message)
+        except (EOFError, OSError):
+            alive = False
+        self._flush(newest)
+        return alive
+
+    def _attach(self, name: str, shape: tuple[int, int]) -> None:
+        if self._ring is not None:
+            self._ring.close()
+        self._ring = PositionRing(shape, name)
+        self._ring.unlink()
+
+    def _take_report(self, report: Report) -> None:
+        if isinstance(report, Loaded):
+            self._loaded, self._loading, self._last_map = report, None, None
+            self._elements = build_elements(report.mesh)
+            with self._lock:
+                self._snapshot = None
+            self._unread_rows = ()
+        elif isinstance(report, Refused) and report.command == "Load":
+            self._loading = None
+        self._report(report)
+
+    def _flush(self, report: MapReport | None) -> None:
+        """Turn the newest map into a snapshot for the window."""
+        if report is None or self._ring is None or self._loaded is None or self._elements is None:
+            return None
+        positions = self._ring.read(report.number)
+        if positions is None:
+            return None  # overwritten meanwhile: a newer one is on its way
+        positions.flags.writeable = False
+        self._last_map = replace(report, positions=positions)
+        self._crashes = 0
+        live = live_measures(self._elements, positions) if self._with_fields else None
+        rows, self._unread_rows = self._unread_rows, ()
+        snapshot = Snapshot(
+            generation=report.generation,
+            number=report.number,
+            positions=positions,
+            phase=report.phase,
+            status=report.status,
+            row=report.rows[-1],
+            inverted=live.inverted if live else report.inverted,  # type: ignore[arg-type]
+            fields=live.fields if live else {},
+            histogram=live.histogram if live else ((), ()),  # type: ignore[arg-type]
+            anchor_serial=report.anchor_serial,
+            limiting_simplex=report.limiting_simplex,
+            seconds_published=report.seconds_published,
+            timing=report.timing,
+            solver=report.solver,
+            distortion=report.distortion,
+            rows=rows,
+        )
+        if self._on_snapshot is not None:
+            self._on_snapshot(snapshot)
+        with self._lock:
+            if self._snapshot is not None:
+                snapshot = replace(snapshot, rows=self._snapshot.rows + snapshot.rows)
+            self._snapshot = snapshot
+        self._wake()
+        return None
+
+    def _report(self, report: Report) -> None:
+        with self._lock:
+            self._reports.append(report)
+        self._wake()
+
+    # ---------------------------------------------------------------------------------------- the child
+
+    def _spawn(self) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._connection, theirs = context.Pipe(duplex=True)
+        with _without_main_module():
+            self._process = context.Process(
+                target=engine_main, args=(theirs, time.time(), self._threads), name="workbench-engine", daemon=True
+            )
+            self._process.start()
+        theirs.close()
+
+    def _crashed(self) -> None:
+        self._crashes += 1
+        code = self._process.exitcode if self._process is not None else None
+        if self._loading is not None:
+            load, self._loading = self._loading, None
+            sentence = f"Reading {load.source} ended the engine process ({_how(code)}); the file may be too large or damaged."
+            self._report(Refused(load.generation, "Load", sentence))
+        if self._crashes > CRASHES_IN_A_ROW:
+            self._settings.pop(SetSolver, None)
+            self._running = None
+        self._restart(f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map.", resume=True)
+
+    def _restart(self, sentence: str, *, resume: bool) -> None:
+        self._end_process(kill=True)
+        if self._loading is not None:
+            self._report(Refused(self._loading.generation, "Load", "Reading the file was cancelled."))
+            self._loading = None
+        if not resume:
+            self._running = None
+        self._report(Restarted(sentence))
+        self._spawn()
+        for kind in (SetProblem, SetSolver):
+            if kind in self._settings:
+                self._send(self._settings[kind])
+        if self._loaded is not None and self._last_map is not None:
+            last, loaded = self._last_map, self._loaded
+            self._send(
+                Restore(loaded.generation, loaded.mesh, loaded.kind, last.positions, last.rows[-1].iteration, last.number + 1)
+            )
+            if SetAnchors in self._settings:
+                self._send(self._settings[SetAnchors])
+            if self._running is not None:
+                self._send(self._running)
+        elif self._loaded is not None:
+            self._send(Load(self._loaded.source, self._loaded.generation, self._loaded.kind, self._loaded.fixes))
+
+    def _end_process(self, *, kill: bool = False) -> None:
+        process, self._process = self._process, None
+        if process is None:
+            return
+        if not kill:
+            self._send(Quit())
+            process.join(timeout=QUIT_PATIENCE)
+        if process.is_alive():
+            process.kill()
+        process.join(timeout=5.0)
+        process.close()
+        if self._connection is not None:
+            self._connection.close()
+        if self._ring is not None:
+            self._ring.close()
+            self._ring = None
+
+
+def _how(code: int | None) -> str:
+    if code is None:
+        return "no exit status"
+    if code < 0:
+        return "killed, perhaps out of memory" if code == -9 else f"signal {-code}"
+    return f"exit status {code}"
+
+
+class _without_main_module:
+    """Spawn without importing the caller's main module again in the child: it may be a script that opens a window."""
+
+    def __enter__(self) -> None:
+        import sys
+
+        self._module = sys.modules["__main__"]
+        self._saved = {k: getattr(self._module, k, None) for k in ("__file__", "__spec__")}
+        for key in self._saved:
+            if hasattr(self._module, key):
+                setattr(self._module, key, None)
+
+    def __exit__(self, *details: object) -> None:
+        for key, value in self._saved.items():
+            setattr(self._module, key, value)
