@@ -1,0 +1,1 @@
+"""Timings that print ratios; run by hand with `make bench`, never asserted."""
