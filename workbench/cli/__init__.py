@@ -1,6 +1,7 @@
 """The command line: `workbench` and `python -m workbench`.
 
-One sub-command a file; each has `add_parser(commands)` and imports what it computes with only when it runs, so that `--help` is quick.
+One sub-command a file; each has `add_parser` and imports what it computes with only when it runs, so that `--help`
+is quick.
 """
 
 from __future__ import annotations

@@ -13,7 +13,9 @@ Entry = dict[str, Any]
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="what there is: " + ", ".join(LISTINGS))
-    parser.add_argument("kind", nargs="?", metavar="KIND", choices=tuple(LISTINGS), help="only these: " + ", ".join(LISTINGS))
+    parser.add_argument(
+        "kind", nargs="?", metavar="KIND", choices=tuple(LISTINGS), help="only these: " + ", ".join(LISTINGS)
+    )
     parser.add_argument("--json", action="store_true", help="a JSON list of {kind, id, label, citation, kinds, ...}")
     parser.set_defaults(run=run)
 
@@ -53,11 +55,18 @@ def distortions() -> list[Entry]:
 
     return [
         _entry(
-            "distortions", item.id, item.label, item.citation, item.kinds,
-            short=item.short, formula=item.formula, description=item.description, parameters=_parameters(item.parameters),
+            "distortions",
+            item.id,
+            item.label,
+            item.citation,
+            item.kinds,
+            short=item.short,
+            formula=item.formula,
+            description=item.description,
+            parameters=_parameters(item.parameters),
         )
         for item in registry().distortions.values()
-    ]  # fmt: skip
+    ]
 
 
 def solvers() -> list[Entry]:
@@ -75,18 +84,31 @@ def _methods(folder: str) -> list[Entry]:
 
     return [
         _entry(
-            folder, item.id, item.label, item.citation, item.kinds,
-            description=(item.__doc__ or "").strip().partition("\n")[0], parameters=_parameters(item.parameters()),
+            folder,
+            item.id,
+            item.label,
+            item.citation,
+            item.kinds,
+            description=(item.__doc__ or "").strip().partition("\n")[0],
+            parameters=_parameters(item.parameters()),
         )
         for item in getattr(registry(), folder).values()
-    ]  # fmt: skip
+    ]
 
 
 def cuts() -> list[Entry]:
     """The operations of `--fix` that cut a mesh open."""
     return [
-        _entry("cuts", "seams", "Cut along the texture seams of the file", kinds=("parameterize",), option="--fix seams"),
-        _entry("cuts", "cut", "Cut a closed or higher-genus surface open to a disc", kinds=("parameterize",), option="--fix cut"),
+        _entry(
+            "cuts", "seams", "Cut along the texture seams of the file", kinds=("parameterize",), option="--fix seams"
+        ),
+        _entry(
+            "cuts",
+            "cut",
+            "Cut a closed or higher-genus surface open to a disc",
+            kinds=("parameterize",),
+            option="--fix cut",
+        ),
     ]
 
 
@@ -103,7 +125,9 @@ def analyses() -> list[Entry]:
     """What can be asked of a map beside its measures."""
     from workbench.core.method import KINDS
 
-    return [_entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)]
+    return [
+        _entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)
+    ]
 
 
 def samples() -> list[Entry]:
@@ -111,18 +135,28 @@ def samples() -> list[Entry]:
     from workbench.core.samples import sample_ids, sample_info
 
     infos = [sample_info(id) for id in sample_ids()]
-    return [_entry("samples", i.id, i.label, kinds=(i.kind,), description=i.description, source=f"sample:{i.id}") for i in infos]
+    return [
+        _entry("samples", i.id, i.label, kinds=(i.kind,), description=i.description, source=f"sample:{i.id}")
+        for i in infos
+    ]
 
 
 def formats() -> list[Entry]:
     """File formats by suffix."""
-    names = {
-        ".obj": ("Wavefront OBJ", True), ".npz": ("NumPy case", True), ".vtu": ("VTK unstructured grid, XML", True),
-        ".csv": ("Table of positions and measures", True), ".off": ("Object File Format", False), ".ply": ("Polygon File Format", False),
-        ".stl": ("Stereolithography", False), ".mesh": ("MEDIT", False), ".msh": ("Gmsh", False), ".vtk": ("VTK legacy", False),
-        ".mat": ("MATLAB: V, F or T from 1", False),
-    }  # fmt: skip
-    return [_entry("formats", id, label, read=id != ".csv", written=written) for id, (label, written) in names.items()]
+    names = (
+        (".obj", "Wavefront OBJ", "read, written"),
+        (".npz", "NumPy case: V S X0 anchors targets", "read, written"),
+        (".vtu", "VTK unstructured grid", "read, written"),
+        (".csv", "Table: anchors in, positions and measures out", "read, written"),
+        (".off", "Object File Format", "read"),
+        (".ply", "Polygon File Format", "read"),
+        (".stl", "Stereolithography", "read"),
+        (".mesh", "MEDIT", "read"),
+        (".msh", "Gmsh", "read"),
+        (".vtk", "VTK legacy", "read"),
+        (".mat", "MATLAB: V, F or T from 1", "read"),
+    )
+    return [_entry("formats", id, label, description=use, written="written" in use) for id, label, use in names]
 
 
 def plugins() -> list[Entry]:
@@ -133,8 +167,14 @@ def plugins() -> list[Entry]:
     by_path: dict[str, list[str]] = {}
     for (folder, id), path in found.origins.items():
         by_path.setdefault(str(path), []).append(f"{folder}/{id}")
-    good = [_entry("plugins", path.rpartition("/")[2], ", ".join(ids), path=path, status="loaded") for path, ids in by_path.items()]
-    bad = [_entry("plugins", f.path.name, "failed", path=str(f.path), status="failed", error=f.sentence) for f in found.failures]
+    good = [
+        _entry("plugins", path.rpartition("/")[2], ", ".join(ids), path=path, status="loaded")
+        for path, ids in by_path.items()
+    ]
+    bad = [
+        _entry("plugins", item.path.name, "failed", path=str(item.path), status="failed", error=item.sentence)
+        for item in found.failures
+    ]
     return [*good, *bad]
 
 

@@ -53,17 +53,15 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def _with_command(arguments: list[str], parser: argparse.ArgumentParser) -> list[str]:
-    """`arguments` with `open` put first where no command is named: no arguments, options of the window, or a file."""
+    """`arguments` with `open` put first where no command is named: nothing, options of the window, or a file."""
     first = next((text for text in arguments if not text.startswith("-")), None)
     if arguments and arguments[0] in ("-h", "--help", "--version"):
         return arguments
     if first is None or (first is not arguments[0] and arguments[0].startswith("--theme")):
         return ["open", *arguments]
-    if first in COMMANDS:
-        return arguments
-    if _names_a_source(first):
-        return ["open", *arguments]
-    parser.error(f"unknown command {first!r}: the commands are {', '.join(COMMANDS)}; a mesh is named by its file")
+    if first not in COMMANDS and not _names_a_source(first):
+        parser.error(f"unknown command {first!r}: the commands are {', '.join(COMMANDS)}; a mesh is named by its file")
+    return arguments if first in COMMANDS else ["open", *arguments]
 
 
 def _names_a_source(text: str) -> bool:

@@ -1,15 +1,15 @@
-"""What is printed and written: strict JSON, tables, files that are there whole or not at all."""
+"""What is printed and written: strict JSON, tables, places that can be written to."""
 
 from __future__ import annotations
 
 import json
 import math
 import os
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
+
+from workbench.core.errors import WorkbenchError
 
 
 def plain(value: Any) -> Any:
@@ -34,21 +34,20 @@ def json_text(value: Any) -> str:
     return json.dumps(plain(value), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def write_text(path: str | Path, text: str) -> None:
-    """Write a file atomically: beside its place first, then renamed, so that no reader sees half of it."""
-    target = Path(path)
-    handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(name, 0o666 & ~mask)  # mkstemp makes private files; this one is an ordinary output
-        os.replace(name, target)
-    except BaseException:
-        with suppress(OSError):
-            os.unlink(name)
-        raise
+def check_places(paths: Iterable[str]) -> None:
+    """Raise `WorkbenchError` unless each file can be written: better now than after the work is done."""
+    seen: set[Path] = set()
+    for text in paths:
+        path = Path(text).absolute()
+        if path in seen:
+            raise WorkbenchError(f"Two outputs have the same name {text}; give each a file of its own.")
+        seen.add(path)
+        if path.is_dir():
+            raise WorkbenchError(f"{text} is a folder; name a file to write.")
+        if not path.parent.is_dir():
+            raise WorkbenchError(f"There is no folder {path.parent}; make it first, or name another place.")
+        if not os.access(path.parent, os.W_OK):
+            raise WorkbenchError(f"{text} may not be written (permission denied); name another place.")
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

@@ -1,4 +1,164 @@
-"""Stub."""
+"""`workbench solve`: map a mesh without a screen, with the numbers that the window shows."""
+
+from __future__ import annotations
+
 import argparse
-def add_parser(name, commands):
-    commands.add_parser(name)
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from workbench.cli.interrupt import InterruptFlag
+from workbench.cli.options import add_solve_options
+from workbench.cli.output import check_places, json_text, number
+from workbench.cli.threads import limit_threads
+from workbench.core.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.cli.preparation import Prepared
+    from workbench.core.run import HistoryRow, RunResult
+    from workbench.core.state import State
+
+RUN_FAILED = 1
+PROGRESS_INTERVAL = 0.5
+"""Seconds between two lines of progress."""
+
+
+def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(name, help="map a mesh and write the map")
+    parser.add_argument("file", metavar="FILE", help="mesh file, case (.npz), or sample:ID")
+    parser.add_argument(
+        "--out", required=True, metavar="OUT", help="the map: .obj, .npz, .vtu, or .csv of its measures"
+    )
+    add_solve_options(parser)
+    parser.add_argument("--report", metavar="REPORT.json", help="one JSON object about the run")
+    parser.add_argument("--history", metavar="HISTORY.csv", help="a row an iteration")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Solve, and write the last map, report and history whatever the status."""
+    limit_threads(options.threads)
+    _check_outputs(options)
+    from workbench.cli.preparation import prepare
+
+    prepared = prepare(options)
+    tell = _silent if options.quiet else _say
+    for note in prepared.opened.notes:
+        tell(note)
+    with InterruptFlag() as interrupt:
+        result, fault = _solve(prepared, options, interrupt, tell)
+        report = _write(prepared, options, result, fault)
+    if not options.quiet:
+        print(_summary(report, options.out))
+    if report["status"] == "FAILED" or result.state.status.is_failure:
+        print(f"workbench: {report['message']}", file=sys.stderr)
+        return RUN_FAILED
+    return 0
+
+
+def _check_outputs(options: argparse.Namespace) -> None:
+    from workbench.io.write import WRITABLE
+
+    ending = Path(options.out).suffix.lower()
+    if ending not in WRITABLE:
+        raise WorkbenchError(f"{options.out}: maps are written as {', '.join(WRITABLE)}; choose one of these endings.")
+    check_places(path for path in (options.out, options.report, options.history) if path)
+
+
+def _solve(
+    prepared: Prepared, options: argparse.Namespace, interrupt: InterruptFlag, tell: Callable[[str], None]
+) -> tuple[RunResult, str]:
+    """The result, and the sentence of a solver that raised (a plugin's fault): then the result ends at its last map."""
+    from workbench.core.run import RunResult, run
+
+    rows: list[HistoryRow] = []
+    states: list[State] = []
+    begin = told = time.perf_counter()
+
+    def on_row(row: HistoryRow) -> None:
+        nonlocal told
+        rows.append(row)
+        if time.perf_counter() - told >= PROGRESS_INTERVAL:
+            told = time.perf_counter()
+            words = f"iteration {row.iteration}  energy {number(row.energy, 9)}  inverted {row.inverted}"
+            tell(f"{words}  {row.seconds:.1f} s")
+
+    def on_state(state: State) -> None:
+        states[:] = [state] if not states else [states[0], state]
+
+    try:
+        result = run(
+            prepared.solver,
+            prepared.problem,
+            prepared.start,
+            iterations=options.iterations,
+            tolerance=options.tolerance,
+            gradient_tolerance=options.gradient_tolerance,
+            time_limit=options.time_limit,
+            interrupt=interrupt,
+            on_row=on_row,
+            on_state=on_state,
+        )
+    except Exception as error:
+        if not states:
+            raise WorkbenchError(
+                f"{prepared.solver.label} failed at the start: {type(error).__name__}: {error}"
+            ) from error
+        seconds = {"total": time.perf_counter() - begin, **prepared.problem.workspace.all_seconds()}
+        sentence = f"{prepared.solver.label} failed in step {states[-1].iteration + 1}: {type(error).__name__}: {error}"
+        return RunResult(states[-1], states[0], tuple(rows), seconds), sentence
+    return result, ""
+
+
+def _write(prepared: Prepared, options: argparse.Namespace, result: RunResult, fault: str) -> dict[str, Any]:
+    from workbench.cli.report import build_report, history_text
+    from workbench.io.atomic import write_text
+    from workbench.io.write import write_map
+
+    opened, anchors = prepared.opened, prepared.problem.anchors
+    write_map(
+        options.out,
+        opened.file.mesh,
+        opened.mesh,
+        result.state.positions,
+        opened.kind,
+        fields=_fields(prepared, result) if Path(options.out).suffix.lower() in (".vtu", ".csv") else None,
+        anchor_vertices=anchors.vertices if len(anchors.vertices) else None,
+        anchor_targets=anchors.targets if len(anchors.vertices) else None,
+    )
+    report = build_report(prepared, result)
+    if fault:
+        report |= {"status": "FAILED", "message": fault}
+    if options.report:
+        write_text(options.report, json_text(report))
+    if options.history:
+        write_text(options.history, history_text(result.rows))
+    return report
+
+
+def _fields(prepared: Prepared, result: RunResult) -> dict[str, Any]:
+    """Every registered distortion on each simplex of the last map, and its determinant."""
+    from workbench.core.jacobians import determinants, signed_singular_values
+    from workbench.core.registry import registry
+
+    elements = prepared.problem.elements
+    sigma = signed_singular_values(elements, result.state.positions)
+    measures = {id: distortion.value(sigma) for id, distortion in registry().distortions.items()}
+    return {**measures, "det": determinants(elements, result.state.positions)}
+
+
+def _summary(report: dict[str, Any], out: str) -> str:
+    return (
+        f"{report['status']} after {report['iterations']} iterations in {report['seconds']['total']:.3g} s: "
+        f"mean distortion {number(report['mean_distortion'], 9)}, {report['inverted']} inverted; map in {out}"
+    )
+
+
+def _say(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
+
+
+def _silent(sentence: str) -> None:
+    pass

@@ -1,0 +1,87 @@
+"""Arguments with checked values, and the options that every command that solves has in common."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+from workbench.cli.settings import add_set_option
+
+FIXES = ("reorient", "largest", "unreferenced", "seams", "cut")
+KINDS = ("auto", "plane", "parameterize", "volume")
+
+
+def count(text: str) -> int:
+    """A whole number from 0 on."""
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 on")
+    return value
+
+
+def positive_count(text: str) -> int:
+    """A whole number from 1 on."""
+    value = count(text)
+    if value == 0:
+        raise argparse.ArgumentTypeError("at least 1 is needed")
+    return value
+
+
+def amount(text: str) -> float:
+    """A number from 0 on; `inf` too."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not value >= 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 on")
+    return value
+
+
+def fixes(text: str) -> tuple[str, ...]:
+    """Names of fixes, separated by commas, in the order to apply them."""
+    names = tuple(name.strip() for name in text.split(",") if name.strip())
+    unknown = [name for name in names if name not in FIXES]
+    if unknown:
+        raise argparse.ArgumentTypeError(f"there is no fix {unknown[0]!r}; there are {', '.join(FIXES)}")
+    return names
+
+
+def add_source_options(parser: argparse.ArgumentParser) -> None:
+    """How a mesh is read and what is mended in it."""
+    parser.add_argument("--map", choices=KINDS, default="auto", help="kind of map (default: auto)")
+    parser.add_argument(
+        "--fix",
+        dest="fixes",
+        type=fixes,
+        action="extend",
+        default=[],
+        metavar="FIX,...",
+        help=f"mend the mesh first, in this order: {', '.join(FIXES)}",
+    )
+    parser.add_argument("--tets", action="store_true", help="read faces of four corners as tetrahedra")
+
+
+def add_solve_options(parser: argparse.ArgumentParser) -> None:
+    """Everything that describes one solve but its outputs."""
+    add_source_options(parser)
+    add = parser.add_argument
+    add("--distortion", default="symmetric-dirichlet", metavar="ID|FORMULA", help="default: symmetric-dirichlet")
+    add_set_option(parser, "the distortion, the solver or the initializer, the first that has it")
+    add("--solver", default="projected-newton", metavar="ID", help="default: projected-newton")
+    add("--init", metavar="ID|FILE", help="start: an initializer, or a map in a file (default: rest; surfaces: tutte)")
+    add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
+    add(
+        "--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)"
+    )
+    add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")
+    add("--tolerance", type=amount, default=1e-6, metavar="T", help="relative energy decrease (default: 1e-6)")
+    add("--gradient-tolerance", type=amount, metavar="T", help="characteristic gradient norm to reach as well")
+    add("--time-limit", type=amount, default=math.inf, metavar="SECONDS", help="stop after so long")
+    add("--threads", type=positive_count, metavar="N", help="threads of the kernels and the linear algebra")
+    add("--seed", type=count, default=0, metavar="N", help="for methods that draw random numbers (default: 0)")
+    add("--allow-inversions", action="store_true", help="let distortions without a barrier invert simplices")
+    add("--quiet", action="store_true", help="no progress; errors are still said")

@@ -1,0 +1,141 @@
+"""From the options of a solve to a problem with its start: everything that can be refused is refused here."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from workbench.cli.settings import assign
+from workbench.core.arrays import Floats
+from workbench.core.constraints import Anchors
+from workbench.core.distortion import Distortion
+from workbench.core.errors import WorkbenchError
+from workbench.core.initializer import Initializer
+from workbench.core.mesh import Mesh
+from workbench.core.problem import Problem
+from workbench.core.registry import registry
+from workbench.core.solver import Solver
+from workbench.engine.starts import DEFAULT_INITIALIZERS, adjusted_start, make_start
+from workbench.io.anchors import read_anchors
+from workbench.io.opening import OpenedSource, open_source
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A problem ready to be solved, and how long the parts of getting there took."""
+
+    path: str
+    opened: OpenedSource
+    problem: Problem
+    solver: Solver
+    initializer: str
+    start: Floats
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def prepare(options: argparse.Namespace) -> Prepared:
+    """Read the mesh, resolve the methods, make the start. Raises `WorkbenchError` for whatever does not fit."""
+    seconds: dict[str, float] = {}
+    with _timed(seconds, "read"):
+        opened = open_source(options.file, kind=options.map, fixes=options.fixes, tets=options.tets)
+    if options.repair not in ("auto", "none"):
+        raise WorkbenchError(f"There is no repair {options.repair!r}; there are: auto, none.")
+    method = registry().solver(options.solver)
+    if opened.kind not in method.kinds:
+        raise WorkbenchError(f"{method.label} does not solve {opened.kind} maps; choose another solver.")
+    initializer, start_file = _initializer(options.init, opened)
+    starter = registry().initializer(initializer)
+    for_distortion, for_solver, for_start = assign(options.settings, options.distortion, (method, starter))
+    distortion = Distortion.resolve(options.distortion, for_distortion)
+    solver = method.configured({**_seed(method, options.seed), **for_solver})
+    problem = Problem.create(
+        opened.mesh,
+        opened.kind,
+        distortion,
+        _anchors(options.anchors, opened),
+        allow_inversions=options.allow_inversions,
+    )
+    with _timed(seconds, "start"):
+        start = _start(opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
+    with _timed(seconds, "compile"):
+        _compile_kernels(problem, solver)
+    return Prepared(str(options.file), opened, problem, solver, initializer, start, seconds)
+
+
+def _initializer(text: str | None, opened: OpenedSource) -> tuple[str, str]:
+    """(id, file) of the start: what the user named, else that of the case, else the default of the kind of map."""
+    if text is None:
+        return ("file", "") if opened.start is not None else (DEFAULT_INITIALIZERS[opened.kind], "")
+    known = registry().initializers
+    if text in known:
+        return text, ""
+    if os.path.exists(text):
+        return "file", text
+    raise WorkbenchError(f"There is no initializer and no file {text!r}; initializers: {', '.join(sorted(known))}.")
+
+
+def _start(opened: OpenedSource, initializer: str, parameters: Mapping[str, Any], file: str) -> Floats:
+    if initializer == "file" and not file and opened.start is not None:
+        return adjusted_start(opened.mesh, opened.kind, opened.start, match_area=False)
+    try:
+        return make_start(opened.mesh, opened.kind, initializer, parameters, file)
+    except (WorkbenchError, MemoryError):
+        raise
+    except Exception as error:
+        raise WorkbenchError(
+            f"The initializer {initializer} failed ({type(error).__name__}: {error}); choose another with --init."
+        ) from error
+
+
+def _seed(method: type[Solver] | type[Initializer], seed: int) -> dict[str, int]:
+    """The seed for a method that has a parameter of that name."""
+    return {"seed": seed} if any(item.name == "seed" for item in method.parameters()) else {}
+
+
+def _anchors(path: str | None, opened: OpenedSource) -> Anchors:
+    """Anchors of a CSV file, which names vertices of the mesh file, else those of the case."""
+    mesh = opened.mesh
+    if path is None:
+        if opened.anchor_vertices is None or opened.anchor_targets is None:
+            return Anchors.none(mesh.dimension)
+        return Anchors(opened.anchor_vertices, opened.anchor_targets)
+    table = read_anchors(path, opened.file.mesh.vertex_count, mesh.dimension)
+    return Anchors(_vertices_after_fixes(path, table.vertices, mesh), table.targets, table.weights)
+
+
+def _vertices_after_fixes(path: str, vertices: np.ndarray, mesh: Mesh) -> np.ndarray:
+    """Vertices of the file as vertices of the mesh that is solved on."""
+    if mesh.vertex_origin is None:
+        return vertices
+    found = []
+    for vertex in vertices.tolist():
+        now = np.flatnonzero(mesh.vertex_origin == vertex)
+        if len(now) != 1:
+            what = "was dropped by a fix" if not len(now) else f"was cut into {len(now)} vertices by a fix"
+            raise WorkbenchError(f"{path}: vertex {vertex} {what}; anchor another vertex.")
+        found.append(int(now[0]))
+    return np.array(found, dtype=np.int64)
+
+
+def _compile_kernels(problem: Problem, solver: Solver) -> None:
+    """One step on a single simplex of the same dimension, so that no compilation is counted as solving."""
+    n = problem.dimension
+    corners = np.vstack([np.zeros(n), np.eye(n)])
+    simplex = Mesh(corners, np.arange(n + 1)[None])
+    with suppress(Exception):  # whatever is wrong will be said of the real problem
+        small = Problem.create(simplex, "plane" if n == 2 else "volume", problem.distortion)
+        solver.step(small, solver.init(small, corners * 1.25))
+
+
+@contextmanager
+def _timed(seconds: dict[str, float], part: str) -> Iterator[None]:
+    begin = time.perf_counter()
+    yield
+    seconds[part] = time.perf_counter() - begin
