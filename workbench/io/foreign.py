@@ -1,4 +1,4 @@
-"""PLY, STL, MEDIT, Gmsh, VTK and VTU through meshio, behind a guard.
+"""PLY, MEDIT, Gmsh, VTK and VTU through meshio, behind a guard.
 
 meshio ends the program, prints, or raises anything at all on files that it cannot read; here every such end is a
 `MeshError`, and nothing is printed.
@@ -23,7 +23,6 @@ from workbench.io.polygons import fan
 
 FORMATS = {
     ".ply": ("ply", "PLY"),
-    ".stl": ("stl", "STL"),
     ".mesh": ("medit", "MEDIT"),
     ".meshb": ("medit", "MEDIT"),
     ".msh": ("gmsh", "Gmsh"),
@@ -36,9 +35,11 @@ FLAT_CELLS = ("triangle", "quad", "polygon")
 IGNORED_CELLS = ("vertex", "line", "line3")
 
 
-def read_foreign(path: Path) -> tuple[Mesh, tuple[str, ...]]:
+def read_foreign(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
     """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes."""
     module, name = FORMATS[path.suffix.lower()]
+    if name == "PLY" and b"end_header" not in data:  # meshio would look for it for ever
+        raise MeshError(f"{path}: its header has no end, so it is no PLY file, or one that is cut short.")
     with silenced(), np.errstate(all="ignore"):
         try:
             content = importlib.import_module(f"meshio.{module}").read(str(path))
@@ -57,7 +58,7 @@ def read_foreign(path: Path) -> tuple[Mesh, tuple[str, ...]]:
         left_out = sorted(kinds & {*FLAT_CELLS, "wedge", "pyramid", "hexahedron"})
         notes = (f"Only the tetrahedra were taken; left out: {', '.join(left_out)}.",) if left_out else ()
         return mesh_of_file(path, points, simplices), notes
-    return _surface(path, name, points, [(kind, data) for kind, data in blocks if kind in FLAT_CELLS and len(data)])
+    return _surface(path, points, [(kind, data) for kind, data in blocks if kind in FLAT_CELLS and len(data)])
 
 
 @contextlib.contextmanager
@@ -85,7 +86,7 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
         raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")
 
 
-def _surface(path: Path, name: str, points: Any, blocks: list[tuple[str, Any]]) -> tuple[Mesh, tuple[str, ...]]:
+def _surface(path: Path, points: Any, blocks: list[tuple[str, Any]]) -> tuple[Mesh, tuple[str, ...]]:
     faces: list[list[int]] = []
     tables = []
     for _, data in blocks:
@@ -100,13 +101,8 @@ def _surface(path: Path, name: str, points: Any, blocks: list[tuple[str, Any]]) 
         raise MeshError(f"{path}: a face has fewer than three corners; the file is damaged.")
     triangles_of, polygons = fan(sizes)
     triangles = corners[triangles_of]
-    notes: tuple[str, ...] = ()
-    if name == "STL":
-        points, triangles = _merged(points, triangles)
-        notes = ("Vertices at the same place were merged.",)
     fanned = polygons if sizes.max() > 3 else None
-    if fanned is not None:
-        notes = (*notes, f"{int((sizes > 3).sum())} polygons were fanned into triangles.")
+    notes = () if fanned is None else (f"{int((sizes > 3).sum())} polygons were fanned into triangles.",)
     return mesh_of_file(path, points, triangles, polygons=fanned), notes
 
 
@@ -115,12 +111,3 @@ def _table(path: Path, data: Any) -> Integers:
     if table.ndim != 2 or table.dtype.kind not in "iu":
         raise MeshError(f"{path}: the table of its elements is damaged.")
     return table.astype(np.int64)
-
-
-def _merged(points: Any, triangles: Integers) -> tuple[Any, Integers]:
-    """Equal vertices as one, in the order in which the triangles first name them."""
-    _, first, number = np.unique(points[triangles.ravel()], axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    return points[triangles.ravel()[first[order]]], rank[number.reshape(-1)].reshape(triangles.shape)

@@ -72,8 +72,8 @@ class OpenedSource:
 def open_source(source: str, *, kind: str = "auto", fixes: Sequence[str] = (), tets: bool = False) -> OpenedSource:
     """Opens a file, or `sample:ID`, applies the fixes asked for, and checks it for the kind of map.
 
-    Raises `MeshError`; where the mesh was read but does not do, an `UnsuitableSourceError` with its report and the fixes
-    that would help.
+    Raises `MeshError`; where the mesh was read but does not do, an `UnsuitableSourceError` with its report and the
+    fixes that would help.
     """
     source = str(source)
     file = _sample(source.removeprefix(SAMPLE)) if source.startswith(SAMPLE) else read_mesh(source, tets=tets)
@@ -92,9 +92,7 @@ def open_source(source: str, *, kind: str = "auto", fixes: Sequence[str] = (), t
     return OpenedSource(file, mesh, resolved, lines, fixed.cut_edges, notes, start, anchors, targets)
 
 
-def _given_map(
-    file: MeshFile, mesh: Mesh, kind: Kind
-) -> tuple[Floats | None, Integers | None, Floats | None, str]:
+def _given_map(file: MeshFile, mesh: Mesh, kind: Kind) -> tuple[Floats | None, Integers | None, Floats | None, str]:
     """Start and anchors of a case for the mesh that is solved on, and a note where they were left out."""
     if file.start is None and file.anchor_vertices is None:
         return None, None, None, ""
@@ -105,7 +103,9 @@ def _given_map(
     targets = file.anchor_targets
     if targets is not None and targets.shape[1] != (3 if kind == "volume" else 2):
         if kind == "volume" or (len(targets) and np.ptp(targets[:, 2]) > 0):
-            raise MeshError(f"{path}: its targets have {targets.shape[1]} columns; the kind {kind} needs another number.")
+            raise MeshError(
+                f"{path}: its targets have {targets.shape[1]} columns; the kind {kind} needs another number."
+            )
         targets = frozen(targets[:, :2])
     return start, file.anchor_vertices, targets, ""
 

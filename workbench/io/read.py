@@ -13,11 +13,12 @@ from workbench.io.cases import CaseParts, read_mat, read_npz
 from workbench.io.mesh_file import MeshFile
 from workbench.io.obj import read_obj
 from workbench.io.off import read_off
+from workbench.io.stl import read_stl
 
 LARGEST_FILE = 2**32
 """Bytes; a mesh of a hundred million triangles."""
 
-READABLE = (".obj", ".off", *foreign.FORMATS, ".npz", ".mat")
+READABLE = (".obj", ".off", ".stl", *foreign.FORMATS, ".npz", ".mat")
 """Endings of the files that can be read."""
 
 
@@ -42,8 +43,11 @@ def read_mesh(path: str | os.PathLike[str], *, tets: bool = False) -> MeshFile:
         if ending == ".off":
             mesh, notes = read_off(path, data)
             return MeshFile(mesh, str(path), "OFF", digest, notes=notes)
+        if ending == ".stl":
+            mesh, notes = read_stl(path, data)
+            return MeshFile(mesh, str(path), "STL", digest, notes=notes)
         if ending in foreign.FORMATS:
-            mesh, notes = foreign.read_foreign(path)
+            mesh, notes = foreign.read_foreign(path, data)
             return MeshFile(mesh, str(path), foreign.FORMATS[ending][1], digest, notes=notes)
         if ending == ".npz":
             return _case_file(read_npz(path, data), path, "case (npz)", digest)

@@ -117,15 +117,10 @@ def _write_npz(
 ) -> None:
     anchors: Integers = np.asarray([] if vertices is None else vertices, dtype=np.int64)
     targets = np.asarray([] if targets is None else targets, dtype=np.float64).reshape(len(anchors), -1)
-    arrays: dict[str, Any] = {
-        "V": mesh.vertices,
-        "S": mesh.simplices,
-        "X": positions,
-        "anchors": anchors,
-        "targets": targets if len(anchors) else np.empty((0, positions.shape[1])),
-    }
+    if not len(anchors):
+        targets = np.empty((0, positions.shape[1]))
     with replacing(path) as part, part.open("wb") as stream:
-        np.savez_compressed(stream, allow_pickle=False, **arrays)
+        np.savez_compressed(stream, V=mesh.vertices, S=mesh.simplices, X=positions, anchors=anchors, targets=targets)
 
 
 def _write_vtu(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
