@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import PurePath
+from typing import NoReturn
 
 from workbench import __version__
 from workbench.cli import check, doctor, listing, measure, open_window, solve
@@ -17,6 +18,13 @@ EPILOG = "`workbench FILE` opens the window on a mesh; `workbench COMMAND --help
 BAD_INPUT = 2
 
 COMMANDS = {"open": open_window, "list": listing, "solve": solve, "measure": measure, "check": check, "doctor": doctor}
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that refuses with one sentence."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(BAD_INPUT, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -44,7 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def build_parser() -> argparse.ArgumentParser:
     """The parser of every command that there is."""
-    parser = argparse.ArgumentParser(prog="workbench", description=DESCRIPTION, epilog=EPILOG)
+    parser = Parser(prog="workbench", description=DESCRIPTION, epilog=EPILOG)
     parser.add_argument("--version", action="version", version=f"workbench {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name, module in COMMANDS.items():

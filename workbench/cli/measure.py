@@ -12,7 +12,7 @@ from workbench.core.errors import MeshError
 
 if TYPE_CHECKING:
     from workbench.core.arrays import Floats
-    from workbench.io.opening import OpenedSource
+    from workbench.core.mesh import Mesh
 
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -27,30 +27,41 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
 def run(options: argparse.Namespace) -> int:
     """Measure and print."""
     from workbench.core.quality import measure_map
-    from workbench.io.opening import open_source
 
-    opened = open_source(options.source, kind=options.map, fixes=options.fixes, tets=options.tets)
-    measured = measure_map(opened.mesh, _positions(opened, options))
+    mesh, positions = _source_and_map(options)
+    measured = measure_map(mesh, positions)
     print(json_text(measured) if options.json else _text(measured), end="")
     return 0
 
 
-def _positions(opened: OpenedSource, options: argparse.Namespace) -> Floats:
-    """The map: that of TARGET, else the one that SOURCE holds itself."""
+def _source_and_map(options: argparse.Namespace) -> tuple[Mesh, Floats]:
+    """The source, and the map of TARGET or else the one that SOURCE holds itself.
+
+    A map is measured on any mesh, a disc or not; where texture coordinates are the map, their seams are part of it.
+    """
     import numpy as np
 
+    from workbench.core.fixes import apply_fixes
+    from workbench.core.kinds import resolve_kind, source_for_kind
     from workbench.engine.starts import adjusted_start
-    from workbench.io.opening import map_from_file
+    from workbench.io.opening import SAMPLE, map_from_file, open_source
+    from workbench.io.read import read_mesh
 
-    if options.target is None and opened.file.map_positions is None and opened.file.mesh.texture is None:
-        raise MeshError(
-            f"{options.source} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does."
-        )
-    positions = map_from_file(options.target or options.source, opened.mesh, opened.kind)
-    adjusted = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)
+    name, target = options.source, options.target
+    is_sample = name.startswith(SAMPLE)
+    file = open_source(name).file if is_sample else read_mesh(name, tets=options.tets)
+    holds_map = file.map_positions is not None or file.mesh.texture is not None
+    if target is None and not holds_map:
+        raise MeshError(f"{name} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does.")
+    fixes = options.fixes or ("unreferenced", *(("seams",) if target is None else ()))
+    fixed = apply_fixes(file.mesh, fixes).mesh
+    kind = resolve_kind(fixed, options.map)
+    mesh = source_for_kind(fixed, kind)
+    positions = map_from_file(target or name, mesh, kind)
+    adjusted = adjusted_start(mesh, kind, positions, match_area=False)
     if not np.array_equal(adjusted, positions):
         print("The map is mirrored as a whole; it is measured as its reflection.", file=sys.stderr)
-    return adjusted
+    return mesh, adjusted
 
 
 def _text(measured: dict[str, Any]) -> str:

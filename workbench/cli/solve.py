@@ -125,8 +125,8 @@ def _write(prepared: Prepared, options: argparse.Namespace, result: RunResult, f
         result.state.positions,
         opened.kind,
         fields=_fields(prepared, result) if Path(options.out).suffix.lower() in (".vtu", ".csv") else None,
-        anchor_vertices=anchors.vertices if len(anchors.vertices) else None,
-        anchor_targets=anchors.targets if len(anchors.vertices) else None,
+        anchor_vertices=anchors.vertices,
+        anchor_targets=anchors.targets,
     )
     report = build_report(prepared, result)
     if fault:

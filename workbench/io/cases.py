@@ -109,7 +109,8 @@ def _anchors(path: Path, mesh: Mesh, arrays: dict[str, Any]) -> tuple[Integers |
         raise MeshError(f"{path}: of anchors and targets only one is there; a case has both or none.")
     vertices = whole_numbers(path, "anchors", np.ravel(arrays["anchors"]))
     given = np.asarray(arrays["targets"])
-    targets = finite_rows(path, "targets", given.reshape(0, 2) if not given.size else given, len(vertices), (2, 3))
+    given = given if given.size else given.reshape(0, mesh.vertices.shape[1])
+    targets = finite_rows(path, "targets", given, len(vertices), (2, 3))
     if len(vertices) and (vertices.min() < 0 or vertices.max() >= mesh.vertex_count):
         bad = int(vertices[(vertices < 0) | (vertices >= mesh.vertex_count)][0])
         raise MeshError(f"{path}: anchors name vertex {bad} (from 0), but the mesh has {mesh.vertex_count} vertices.")

@@ -116,9 +116,8 @@ def _write_npz(
     path: str | os.PathLike[str], mesh: Mesh, positions: Floats, vertices: ArrayLike | None, targets: ArrayLike | None
 ) -> None:
     anchors: Integers = np.asarray([] if vertices is None else vertices, dtype=np.int64)
-    targets = np.asarray([] if targets is None else targets, dtype=np.float64).reshape(len(anchors), -1)
-    if not len(anchors):
-        targets = np.empty((0, positions.shape[1]))
+    targets = np.asarray([] if targets is None else targets, dtype=np.float64)
+    targets = targets.reshape(len(anchors), positions.shape[1])
     with replacing(path) as part, part.open("wb") as stream:
         np.savez_compressed(stream, V=mesh.vertices, S=mesh.simplices, X=positions, anchors=anchors, targets=targets)
 
