@@ -65,7 +65,7 @@ class Document(QObject):
         self.selected = -1
         self.wants_to_run = False
         self.opening_source = ""
-        self._wanted: Session | None = None
+        self._attempt: Session | None = None
         self._runs_after_open = False
         self._is_opening = False
         bridge.loaded.connect(self._take_loaded)
@@ -106,10 +106,10 @@ class Document(QObject):
         """Ask for a mesh; the present one stays until the new one is there. `run` starts the solver then."""
         self.generation += 1
         self.opening_source = source
-        self._wanted = replace(self.session, source=source, kind=kind, fixes=fixes)
+        self._attempt = replace(self.session, source=source, kind=kind, fixes=fixes)
         self._runs_after_open = run
-        self._bridge.post(self._problem(self._wanted))
-        self._bridge.post(self._solver(self._wanted))
+        self._bridge.post(self._problem(self._attempt))
+        self._bridge.post(self._solver(self._attempt))
         self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
         self.opening.emit(source)
 
@@ -117,27 +117,31 @@ class Document(QObject):
         """Open a mesh of our own generator with the anchors that suit it."""
         self.open(SAMPLE + id, run=run)
 
-    def open_again(self, **changes: Any) -> None:
-        """Read the present source once more with other `kind` or `fixes`."""
-        session = self._wanted or self.session
-        arguments = {"kind": session.kind, "fixes": session.fixes, **changes}
-        if session.source:
-            self.open(session.source, run=self.wants_to_run, **arguments)
+    def open_as(self, kind: str) -> None:
+        """Read the present source once more for another kind of map."""
+        session = self.session if self.loaded is not None else self._attempt
+        if session is not None and session.source:
+            self.open(session.source, kind=kind, fixes=session.fixes, run=self.wants_to_run)
+        else:
+            self.session = replace(self.session, kind=kind)
 
-    def fixes_asked_for(self) -> tuple[str, ...]:
-        """Fixes of the last attempt to open."""
-        return (self._wanted or self.session).fixes
+    def try_again(self, fixes: tuple[str, ...]) -> None:
+        """Read what was asked for last once more, with more fixes."""
+        attempt = self._attempt or self.session
+        new = tuple(name for name in fixes if name not in attempt.fixes)
+        self.open(attempt.source, kind=attempt.kind, fixes=attempt.fixes + new, run=self._runs_after_open)
 
     def _take_loaded(self, report: Loaded) -> None:
         if report.generation != self.generation:
             return
         self.session = replace(
-            self._wanted or self.session,
+            self._attempt or self.session,
             fixes=report.fixes,
             initializer="",
             initializer_parameters={},
             start_file="",
         )
+        self.opening_source = ""
         self.loaded = report
         self.snapshot = None
         self.wants_to_run = False
@@ -162,6 +166,7 @@ class Document(QObject):
 
     def _take_refused(self, report: Refused) -> None:
         if report.generation == self.generation or report.command != "Load":
+            self.opening_source = ""
             if report.command in ("Reset", "SetProblem", "SetSolver", "Run", "Step"):
                 self.wants_to_run = False
                 self.session_changed.emit()
@@ -175,7 +180,8 @@ class Document(QObject):
 
     def _take_snapshot(self, snapshot: Snapshot) -> None:
         mesh = self.mesh
-        if mesh is None or snapshot.generation != self.generation or len(snapshot.positions) != mesh.vertex_count:
+        # while another mesh is being read, the one on the screen goes on
+        if self.loaded is None or mesh is None or snapshot.generation != self.loaded.generation:
             return
         self.snapshot = snapshot
         self.snapshot_taken.emit()

@@ -256,6 +256,7 @@ class MainWindow(QMainWindow):
             self.settings.save_layout(self.saveGeometry(), self.saveState())
             self.settings.sync()
             self.turns.stop()
+            self.presenter.stop()
             self.reporter.stop()
             self.source_tool.let_go()
             self.target_tool.let_go()

@@ -1,4 +1,4 @@
-"""Drawing the small panels in turns, so that they never hold up the main views."""
+"""Drawing the small panels in turns, so that they never hold up the main view."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QWidget
 
-SHARE = 2.0
-"""Rest after a panel's turn, as a multiple of the time it took."""
-LEAST_REST = 8
-MOST_REST = 400
+LEAST_REST = 0.016
+"""Seconds between two turns at least."""
+COMING_TO_REST = 60
+"""Milliseconds without a new map after which panels that are still behind are drawn on their own."""
 
 
 @dataclass
 class Panel:
-    """One panel: the widget decides whether it is to be seen, `draw` brings it up to date."""
+    """One panel: `draw` brings it up to date; it is left alone while its widget is not to be seen."""
 
     widget: QWidget
     draw: Callable[[], None]
@@ -25,34 +25,52 @@ class Panel:
 
 
 class PanelTurns(QObject):
-    """One stale and visible panel at a time, then a rest that grows with what drawing costs."""
+    """With each picture of the main view one panel that is behind is drawn, in turn.
+
+    Putting a window together costs as much as drawing a view where there is no graphics card, so panels are drawn in
+    the same pass as the main view and not between two of its pictures.
+    """
 
     def __init__(self) -> None:
         super().__init__()
         self.panels: list[Panel] = []
         self._next = 0
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self._turn)
+        self._last = 0.0
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(COMING_TO_REST)
+        self._rest.timeout.connect(self._catch_up)
 
     def add(self, widget: QWidget, draw: Callable[[], None]) -> None:
         self.panels.append(Panel(widget, draw))
 
-    def all_stale(self) -> None:
-        """A newer map is there."""
+    def take_map(self) -> None:
+        """A newer map is drawn in the main view: all panels are behind, one of them comes along."""
         for panel in self.panels:
             panel.is_stale = True
-        if not self._timer.isActive():
-            self._timer.start(LEAST_REST)
+        if time.perf_counter() - self._last >= LEAST_REST:
+            self._turn()
+        self._rest.start()
+
+    def all_stale(self) -> None:
+        """Something but the map changed: draw all again when there is time."""
+        for panel in self.panels:
+            panel.is_stale = True
+        self._rest.start()
 
     def draw_all(self) -> None:
-        """Bring everything up to date now: for screenshots."""
+        """Bring everything up to date now."""
         for panel in self.panels:
             panel.is_stale = False
             panel.draw()
 
     def stop(self) -> None:
-        self._timer.stop()
+        self._rest.stop()
+
+    def _catch_up(self) -> None:
+        self._turn()
+        if any(panel.is_stale and panel.widget.isVisible() for panel in self.panels):
+            self._rest.start()
 
     def _turn(self) -> None:
         count = len(self.panels)
@@ -60,14 +78,7 @@ class PanelTurns(QObject):
             panel = self.panels[(self._next + offset) % count]
             if panel.is_stale and panel.widget.isVisible():
                 self._next = (self._next + offset + 1) % count
+                self._last = time.perf_counter()
                 panel.is_stale = False
-                begin = time.perf_counter()
                 panel.draw()
-                # the drawing itself comes with the next turn of the event loop: its end is seen from there
-                QTimer.singleShot(0, self, lambda since=begin: self._rest_after(since))
                 return
-
-    def _rest_after(self, begin: float) -> None:
-        if any(panel.is_stale and panel.widget.isVisible() for panel in self.panels):
-            spent = 1e3 * (time.perf_counter() - begin)
-            self._timer.start(int(min(max(SHARE * spent, LEAST_REST), MOST_REST)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
@@ -14,9 +14,12 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import PATTERNS
 from workbench.core.arrays import Floats
 
+MARKS_WAIT = 35
+"""Milliseconds that moved anchors wait for the map that follows them, to be drawn in one pass with it."""
+
 
 class Presenter(QObject):
-    """Draws the newest snapshot in the main views at once, in the panels in turns."""
+    """Draws the newest snapshot in the target at once, in the source and the panels in turns."""
 
     picture_sent = Signal(int)
     """A map that has taken up this anchor serial is on its way to the screen."""
@@ -42,6 +45,11 @@ class Presenter(QObject):
         self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
         self._hovered = -1
+        self._late_marks = QTimer(self)
+        self._late_marks.setSingleShot(True)
+        self._late_marks.setInterval(MARKS_WAIT)
+        self._late_marks.timeout.connect(self._draw_marks)
+        turns.add(source, self._draw_source)
         document.opened.connect(self._show_mesh)
         document.closed.connect(self.clear)
         document.snapshot_taken.connect(self._show_snapshot)
@@ -106,14 +114,13 @@ class Presenter(QObject):
             if values is not None:
                 dock.colour_range.take(values)
         self._paint_target()
-        self._paint_source()
         self._mark()
+        self._late_marks.stop()
         if is_first:
             self.refit_target()
+            self._draw_source()
         self.target.refresh()
-        if self.source.surface is not None and (self.source.surface.has_texture or snapshot.inverted.any()):
-            self.source.refresh()
-        self._turns.all_stale()
+        self._turns.take_map()
         self.picture_sent.emit(snapshot.anchor_serial)
 
     def _paint_target(self) -> None:
@@ -129,6 +136,11 @@ class Presenter(QObject):
         surface.set_texture_positions(geometry.points)
         surface.set_values(None, snapshot.inverted)
 
+    def _draw_source(self) -> None:
+        """The source changes with the map where it carries its texture, inverted triangles or marks."""
+        self._paint_source()
+        self.source.refresh()
+
     def _draw_map(self, dock: ColourMapDock) -> None:
         if self._document.snapshot is not None:
             dock.show_snapshot(self._document.snapshot)
@@ -141,8 +153,7 @@ class Presenter(QObject):
         if surface is None or style not in PATTERNS:
             return
         surface.show_pattern(style)  # type: ignore[arg-type]
-        self._paint_source()
-        self.source.refresh()
+        self._draw_source()
 
     def set_target_style(self, style: str) -> None:
         self.target_style = style
@@ -168,8 +179,18 @@ class Presenter(QObject):
             self._anchors_changed()
 
     def _anchors_changed(self) -> None:
+        if self._document.is_running:
+            if not self._late_marks.isActive():
+                self._late_marks.start()
+        else:
+            self._draw_marks()
+
+    def stop(self) -> None:
+        self._late_marks.stop()
+
+    def _draw_marks(self) -> None:
+        """Paint the layers above anew; the pictures below stay as they are."""
         self._mark()
-        # only the layer above is painted anew; the pictures below stay as they are
         self.source.overlay.update()
         self.target.overlay.update()
 

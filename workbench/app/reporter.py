@@ -62,8 +62,7 @@ class Reporter(QObject):
         window.error_bar.fix_wanted.connect(self._apply_fixes)
         window.progress.cancelled.connect(document.stop)
         window.presenter.picture_sent.connect(self._picture_sent)
-        # the picture is on the screen when Qt has put the frame together
-        window.target.view.plotter.frameSwapped.connect(self._picture_drawn)
+        window.target.view.drawn.connect(self._picture_drawn)
 
     def stop(self) -> None:
         self._timer.stop()
@@ -99,8 +98,7 @@ class Reporter(QObject):
         self._window.panel.show_session()
 
     def _apply_fixes(self, fixes: Any) -> None:
-        wanted = self._document.fixes_asked_for()
-        self._document.open_again(fixes=(*wanted, *(f for f in fixes if f not in wanted)))
+        self._document.try_again(tuple(fixes))
 
     def show_exception(self, error: BaseException) -> None:
         """A fault of ours or of a plugin, with its traceback in the details."""

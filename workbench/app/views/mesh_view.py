@@ -1,4 +1,4 @@
-"""One view of a mesh: pyvista's Qt widget, our camera, the layer above."""
+"""One view of a mesh: a canvas for VTK, our camera, the layer above."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
-from pyvistaqt import QtInteractor
 
 from workbench.app.theme import Theme
 from workbench.app.views.camera import Pixel, Size, ViewCamera, slanted_axes
+from workbench.app.views.canvas import make_canvas
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.overlay import Overlay
 from workbench.app.views.picking import ScreenTriangles, nearest_pixel
@@ -24,9 +24,10 @@ REACH_INSIDE = 60.0
 
 
 class MeshView(QWidget):
-    """A view of one `Geometry`. The interactor is composed, so that neither framework's names meet ours."""
+    """A view of one `Geometry`; the canvas is composed, so that no framework's names meet ours."""
 
     camera_changed = Signal()
+    drawn = Signal()
 
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -38,12 +39,9 @@ class MeshView(QWidget):
         self._wants_fit = True
         self._version = 0
         self._screen: tuple[int, Size, ScreenTriangles] | None = None
-        self.plotter = QtInteractor(self, auto_update=False, multi_samples=0)
-        self.plotter.setAcceptDrops(False)  # files that are dropped go to the window
-        self.plotter.reset_key_events()
-        self.plotter.enable_lightkit()
-        self._renderer: Any = self.plotter.renderer
-        self._renderer.SetUseHiddenLineRemoval(False)
+        self.canvas = make_canvas(self)
+        self.canvas.drawn.connect(self.drawn)
+        self._renderer: Any = self.canvas.renderer
         self.overlay = Overlay(self)
         self.setMinimumSize(120, 100)
         self.set_theme(theme)
@@ -86,11 +84,11 @@ class MeshView(QWidget):
     def refresh(self) -> None:
         """Draw at the next turn of the event loop, where the view is to be seen at all."""
         if not self._is_closed and self.is_shown():
-            self.plotter.update()
+            self.canvas.draw_again()
             self.overlay.update()
 
     def is_shown(self) -> bool:
-        return self.isVisible() and not self.visibleRegion().isEmpty()
+        return self.isVisible() and not self.window().isMinimized()
 
     # ------------------------------------------------------------------------------------------ camera
 
@@ -113,7 +111,7 @@ class MeshView(QWidget):
         self._wants_fit = True
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        self.plotter.setGeometry(self.rect())
+        self.canvas.setGeometry(self.rect())
         self.overlay.setGeometry(self.rect())
         self.overlay.raise_()
         if self._wants_fit:
@@ -165,4 +163,4 @@ class MeshView(QWidget):
         """Give the graphics memory back; nothing may be drawn afterwards."""
         if not self._is_closed:
             self._is_closed = True
-            self.plotter.close()
+            self.canvas.close_canvas()
