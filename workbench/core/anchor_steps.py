@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from workbench.core.anchor_motion import anchor_groups, next_displacement
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, frozen
+from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.linear_solver import SingularMatrixError
 from workbench.core.state import Approach, State
@@ -62,7 +63,7 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
             return replace(state, status=Status.SINGULAR)
         system.factorised_at = time.perf_counter_ns()
     else:
-        evaluation = problem.evaluate(x, 1)
+        evaluation = _evaluation(problem, state)
     if interrupt():
         return replace(state, status=Status.INTERRUPTED)
 
@@ -89,10 +90,10 @@ def correct_with_last_factor(problem: Problem, state: State, interrupt: Callable
     """
     x, system = state.positions, problem.system
     fresh = not system.serves(problem.anchors.hard_vertices) or (state.approach.refresh and _affordable(problem))
-    evaluation = problem.evaluate(x, 2 if fresh else 1)
+    evaluation = problem.evaluate(x, 2) if fresh else _evaluation(problem, state)
     if not math.isfinite(evaluation.energy):
         return replace(state, status=Status.NONFINITE)
-    if fresh:
+    if evaluation.hessian_values is not None:
         try:
             system.factorise(evaluation.hessian_values, problem.anchors.hard_vertices)
         except SingularMatrixError:
@@ -123,53 +124,54 @@ def _push(
             size, limiting = BOUNDARY_PART * bound, simplex
     clean = state.inverted == 0 and problem.forbids_inversions
     slope = float(np.einsum("ij,ij->", gradient, direction))
-    # The rise that dragging costs by the quadratic model; a step that rises far more has left the model's range.
-    rise = max(slope, 0.0) + 0.5 * _quadratic(problem, direction)
+    anchor_force, work = problem.system.anchor_forces(direction)
+    free_gradient = gradient.copy()
+    free_gradient[hard] = 0.0
+    force = free_gradient + anchor_force
+    # H d = -gradient on the free vertices, so d . H d needs the rows of the anchors alone. The rise that dragging costs by
+    # this model is what a step may cost; one that rises far more has left the model's range.
+    curvature = work - float(np.einsum("ij,ij->", free_gradient, direction))
+    rise = max(slope, 0.0) + 0.5 * max(curvature, 0.0)
+    after = None
     for _ in range(12):
         if interrupt():
             return replace(state, status=Status.INTERRUPTED)
         candidate = x + size * direction
         if size == 1.0:
             _place_exactly(problem, x, direction, candidate)
-        value, inverted = problem.energy_and_inverted(candidate)
+        after = problem.evaluate(candidate, 1)
         allowed = energy + max(4.0 * size * rise, 0.02 * abs(energy))
-        if math.isfinite(value) and not (clean and inverted) and value <= allowed:
+        if math.isfinite(after.energy) and not (clean and after.inverted) and after.energy <= allowed:
             break
         size *= 0.5
     else:
-        size, candidate, value, inverted = 0.0, x, energy, state.inverted
+        size, candidate, after = 0.0, x, Evaluation(energy, state.inverted, gradient)
     error = problem.anchor_error(candidate)
     progress = state.anchor_error - error
     stuck = 0 if progress > 1e-3 * state.anchor_error else state.approach.stuck + 1
     if stuck > PATIENCE:
         return replace(state, status=Status.STALLED, limiting_simplex=limiting)
-    poor = size < 0.5
-    gradient_norm = state.gradient_norm
-    if size > 0.0 and not poor:
-        after = problem.evaluate(candidate, 1)
-        gradient_norm = problem.free_gradient_norm(after.gradient)
-        force = problem.free_gradient_norm(gradient + problem.system.force(direction, hard))
-        poor = gradient_norm > POOR_CONTRACTION * force
+    gradient_norm = problem.free_gradient_norm(after.gradient)
+    poor = size < 0.5 or gradient_norm > POOR_CONTRACTION * float(np.linalg.norm(force))
+    candidate = frozen(candidate)
     return replace(
         state,
         positions=candidate,
         iteration=state.iteration + 1,
-        energy=value,
+        energy=after.energy,
         gradient_norm=gradient_norm,
         step_size=size,
-        inverted=inverted,
+        inverted=after.inverted,
         anchor_error=error,
         status=Status.RUNNING,
         previous_energy=float("nan"),
         limiting_simplex=limiting,
         memory=None,
-        approach=Approach(refresh=poor, hold=size < 0.1, stuck=stuck),
+        approach=Approach(poor, size < 0.1, stuck, candidate, after),
     )
 
 
-def _relax(
-    problem: Problem, state: State, energy: float, gradient: Floats, interrupt: Callable[[], bool]
-) -> State:
+def _relax(problem: Problem, state: State, energy: float, gradient: Floats, interrupt: Callable[[], bool]) -> State:
     """A Newton step with the anchors held where they are: it makes room for the next push."""
     x = state.positions
     direction = problem.system.solve(gradient)
@@ -197,12 +199,12 @@ def _relax(
     )
 
 
-def _quadratic(problem: Problem, direction: Floats) -> float:
-    """d^T H d with the Hessian of the last factor."""
-    system = problem.system
-    values = system.hessian_values
-    vector = system.pattern.to_matrix_order(direction)
-    return max(0.0, float(vector @ system.pattern.multiply(values, vector)))
+def _evaluation(problem: Problem, state: State) -> Evaluation:
+    """Energy and gradient at the current map, from the end of the step before where that was a walk of anchors too."""
+    approach = state.approach
+    if approach.evaluation is not None and approach.positions is state.positions:
+        return approach.evaluation
+    return problem.evaluate(state.positions, 1)
 
 
 def _place_exactly(problem: Problem, x: Floats, direction: Floats, candidate: Floats) -> None:

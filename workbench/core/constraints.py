@@ -25,7 +25,7 @@ class Anchors:
 
     vertices: Integers
     targets: Floats
-    weights: Floats | None = None
+    weights: Floats = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         vertices = frozen(np.asarray(self.vertices).reshape(-1), np.int64)
@@ -34,13 +34,15 @@ class Anchors:
         object.__setattr__(self, "targets", frozen(self.targets))
         object.__setattr__(self, "weights", frozen(weights.reshape(-1)))
         targets = self.targets
-        if targets.ndim != 2 or len(targets) != len(vertices) or len(self.weights) != len(vertices):  # type: ignore[arg-type]
-            raise WorkbenchError(f"Anchors: {len(vertices)} vertices, targets of shape {targets.shape}; one row a vertex is needed.")
+        if targets.ndim != 2 or len(targets) != len(vertices) or len(self.weights) != len(vertices):
+            raise WorkbenchError(
+                f"Anchors: {len(vertices)} vertices, targets of shape {targets.shape}; one row a vertex is needed."
+            )
         if not np.isfinite(targets).all():
             raise WorkbenchError("Anchors: a target is not a finite number.")
         if len(np.unique(vertices)) != len(vertices):
             raise WorkbenchError("Anchors: a vertex is named twice.")
-        if (self.weights < 0).any() or np.isnan(self.weights).any():  # type: ignore[operator]
+        if (self.weights < 0).any() or np.isnan(self.weights).any():
             raise WorkbenchError("Anchors: weights are positive numbers, inf for hard anchors.")
 
     @staticmethod
@@ -58,7 +60,7 @@ class Anchors:
 
     @cached_property
     def _hard(self) -> Booleans:
-        return np.isinf(np.asarray(self.weights))
+        return np.isinf(self.weights)
 
     @cached_property
     def hard_vertices(self) -> Integers:
@@ -71,8 +73,8 @@ class Anchors:
     @cached_property
     def soft(self) -> tuple[Integers, Floats, Floats]:
         """Vertices, targets and weights of the soft ones."""
-        chosen = ~self._hard & (np.asarray(self.weights) > 0)
-        return self.vertices[chosen], self.targets[chosen], np.asarray(self.weights)[chosen]
+        chosen = ~self._hard & (self.weights > 0)
+        return self.vertices[chosen], self.targets[chosen], self.weights[chosen]
 
     def error(self, positions: Floats) -> float:
         """Largest distance of a hard anchor from its target, 0 without any."""
@@ -86,7 +88,7 @@ class Anchors:
         return Anchors(
             np.concatenate([self.vertices, vertices[new]]),
             np.concatenate([self.targets, targets[new]]),
-            np.concatenate([np.asarray(self.weights), np.full(int(new.sum()), np.inf)]),
+            np.concatenate([self.weights, np.full(int(new.sum()), np.inf)]),
         )
 
 

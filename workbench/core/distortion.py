@@ -52,7 +52,16 @@ class Distortion:
                 raise WorkbenchError(f"{self.label} has no parameter {name!r}; it has: {', '.join(form) or 'none'}.")
             checked[name] = float(form[name].check(value))
         return Distortion(
-            self.id, self.label, self.formula, self.parameters, checked, self.barrier, self.citation, self.short, self.description, self.kinds
+            self.id,
+            self.label,
+            self.formula,
+            self.parameters,
+            checked,
+            self.barrier,
+            self.citation,
+            self.short,
+            self.description,
+            self.kinds,
         )
 
     @property
@@ -133,7 +142,9 @@ class Distortion:
             if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", text) and "-" in text and not any(c.isdigit() for c in text):
                 names = text.split("-")
                 if not any(n.startswith("sigma") or n == "det" for n in names):
-                    raise FormulaError(f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma.")
+                    raise FormulaError(
+                        f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma."
+                    )
             distortion = Distortion.from_formula(text, values)
         for n in (2, 3):
             try:

@@ -28,8 +28,8 @@ def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
     inverted = 0
     for block in range(start, stop, lanes):
         count = min(lanes, stop - block)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
             p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
             q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
@@ -45,12 +45,12 @@ def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
             alpha = math.sqrt((a + d) * (a + d) + (c - b) * (c - b))
             beta = math.sqrt((a - d) * (a - d) + (c + b) * (c + b))
             s1 = 0.5 * (alpha + beta)
-            memory[0, l] = s1
-            memory[1, l] = abs(det) / s1 if s1 > 0.0 else 0.0
+            memory[0, lane] = s1
+            memory[1, lane] = abs(det) / s1 if s1 > 0.0 else 0.0
         run_tape(code, memory)
         row = memory[outputs[0]]
-        for l in range(count):
-            energy += weights[block + l] * row[l]
+        for lane in range(count):
+            energy += weights[block + lane] * row[lane]
     return energy, inverted
 
 
@@ -64,8 +64,8 @@ def energy_3d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
     U, V, s = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     for block in range(start, stop, lanes):
         count = min(lanes, stop - block)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
             if not det > 0.0:
                 inverted += 1
@@ -73,11 +73,11 @@ def energy_3d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
                     return math.inf, inverted
             _jacobian_3d(D, inverse_rest, e, J)
             signed_svd_3x3(J, U, s, V)
-            memory[0, l], memory[1, l], memory[2, l] = s[0], s[1], abs(s[2])
+            memory[0, lane], memory[1, lane], memory[2, lane] = s[0], s[1], abs(s[2])
         run_tape(code, memory)
         row = memory[outputs[0]]
-        for l in range(count):
-            energy += weights[block + l] * row[l]
+        for lane in range(count):
+            energy += weights[block + lane] * row[lane]
     return energy, inverted
 
 
@@ -104,8 +104,8 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
     lam = np.empty(4)
     for block in range(start, stop, lanes):
         count = min(lanes, stop - block)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
             p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
             q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
@@ -117,18 +117,18 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             )
             if not det > 0.0:
                 inverted += 1
-            memory[0, l], memory[1, l] = s1, abs(s2)
-            frames[l, 0], frames[l, 1], frames[l, 2], frames[l, 3] = uc, us, vc, vs
-            frames[l, 4] = -1.0 if s2 < 0.0 else 1.0
+            memory[0, lane], memory[1, lane] = s1, abs(s2)
+            frames[lane, 0], frames[lane, 1], frames[lane, 2], frames[lane, 3] = uc, us, vc, vs
+            frames[lane, 4] = -1.0 if s2 < 0.0 else 1.0
         run_tape(code, memory)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             w = weights[e]
-            sign = frames[l, 4]
-            s1, s2 = memory[0, l], sign * memory[1, l]
-            energy += w * memory[outputs[0], l]
-            d1, d2 = memory[outputs[1], l], sign * memory[outputs[2], l]
-            uc, us, vc, vs = frames[l, 0], frames[l, 1], frames[l, 2], frames[l, 3]
+            sign = frames[lane, 4]
+            s1, s2 = memory[0, lane], sign * memory[1, lane]
+            energy += w * memory[outputs[0], lane]
+            d1, d2 = memory[outputs[1], lane], sign * memory[outputs[2], lane]
+            uc, us, vc, vs = frames[lane, 0], frames[lane, 1], frames[lane, 2], frames[lane, 3]
             m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
             m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
             # hat gradients in the frame of V: h_j = V^T g_j
@@ -148,9 +148,9 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             gradient[i, 1] -= gj1 + gk1
             if order < 2:
                 continue
-            d11 = memory[outputs[3], l]
-            d12 = sign * memory[outputs[4], l]
-            d22 = memory[outputs[5], l]
+            d11 = memory[outputs[3], lane]
+            d12 = sign * memory[outputs[4], lane]
+            d22 = memory[outputs[5], lane]
             # eigenvectors of the 2x2 block
             mean, half = 0.5 * (d11 + d22), 0.5 * (d11 - d22)
             radius = math.sqrt(half * half + d12 * d12)
@@ -214,23 +214,23 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
     scaled = np.empty(9)
     for block in range(start, stop, lanes):
         count = min(lanes, stop - block)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
             if not det > 0.0:
                 inverted += 1
             _jacobian_3d(D, inverse_rest, e, J)
-            signed_svd_3x3(J, frames_u[l], signed[l], frames_v[l])
-            memory[0, l], memory[1, l], memory[2, l] = signed[l, 0], signed[l, 1], abs(signed[l, 2])
+            signed_svd_3x3(J, frames_u[lane], signed[lane], frames_v[lane])
+            memory[0, lane], memory[1, lane], memory[2, lane] = signed[lane, 0], signed[lane, 1], abs(signed[lane, 2])
         run_tape(code, memory)
-        for l in range(count):
-            e = block + l
+        for lane in range(count):
+            e = block + lane
             w = weights[e]
-            U, V, s = frames_u[l], frames_v[l], signed[l]
+            U, V, s = frames_u[lane], frames_v[lane], signed[lane]
             sign = -1.0 if s[2] < 0.0 else 1.0
-            energy += w * memory[outputs[0], l]
+            energy += w * memory[outputs[0], lane]
             for i in range(3):
-                first[i] = memory[outputs[1 + i], l]
+                first[i] = memory[outputs[1 + i], lane]
             first[2] *= sign
             for i in range(3):
                 H[0, i] = 0.0
@@ -250,7 +250,7 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
             k = 4
             for i in range(3):
                 for j in range(i, 3):
-                    d = memory[outputs[k], l]
+                    d = memory[outputs[k], lane]
                     if (i == 2) != (j == 2):
                         d *= sign
                     block3[i, j] = block3[j, i] = d

@@ -251,8 +251,7 @@ def evaluate(op: Op, *v: float) -> float:
         if op is Op.DIVIDE:
             return v[0] / v[1] if v[1] != 0 else (math.nan if v[0] == 0 else math.copysign(math.inf, v[0]))
         if op is Op.POWER:
-            result = math.pow(v[0], v[1])
-            return result
+            return math.pow(v[0], v[1])
         if op is Op.SQRT:
             return math.sqrt(v[0])
         if op is Op.EXP:

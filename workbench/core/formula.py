@@ -217,7 +217,10 @@ class _Reader:
         other = self.resolve(node.id) if self.resolve else None
         if other is None:
             known = "".join(f", {p}" for p in self.parameters)
-            raise self.fail(node, f"The name {node.id!r} is not known; there are sigma, sigma1 ... sigman, n, det{known} and the distortions.")
+            raise self.fail(
+                node,
+                f"The name {node.id!r} is not known; there are sigma, sigma1 ... sigman, n, det{known} and the distortions.",
+            )
         self.references += 1
         if node.id in self.open:
             raise self.fail(node, f"The distortion {node.id} refers to itself.")

@@ -128,9 +128,7 @@ def _determinants_2d(x, simplices, inverse_rest, out):  # type: ignore[no-untype
     for e in range(simplices.shape[0]):
         i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
         area = (x[j, 0] - x[i, 0]) * (x[k, 1] - x[i, 1]) - (x[j, 1] - x[i, 1]) * (x[k, 0] - x[i, 0])
-        out[e] = area * (
-            inverse_rest[e, 0, 0] * inverse_rest[e, 1, 1] - inverse_rest[e, 0, 1] * inverse_rest[e, 1, 0]
-        )
+        out[e] = area * (inverse_rest[e, 0, 0] * inverse_rest[e, 1, 1] - inverse_rest[e, 0, 1] * inverse_rest[e, 1, 0])
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")

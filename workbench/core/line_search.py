@@ -150,7 +150,7 @@ def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
         elif ((a * high + b) * high + c) * high + d > 0.0:
             low = high
             continue
-        for _ in range(200):
+        for _ in range(1200):  # as many halvings as a float has: a turning point may lie absurdly far out
             middle = 0.5 * (low + high)
             if middle <= low or middle >= high:
                 break

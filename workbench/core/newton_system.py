@@ -28,6 +28,7 @@ class NewtonSystem:
         self._fixed: Integers = np.empty(0, dtype=np.int64)
         self._fixed_coordinates: Integers = np.empty(0, dtype=np.int64)
         self._fixed_entries: Integers = np.empty(0, dtype=np.int64)
+        self._fixed_mask = np.zeros(pattern.size, dtype=bool)
         self._values: Floats | None = None
         self.factorised_at: int = 0
         self.seconds = {"factorise": 0.0, "solve": 0.0}
@@ -51,11 +52,42 @@ class NewtonSystem:
         assert self._values is not None
         return self._values
 
-    def force(self, direction: Floats, vertices: Integers) -> Floats:
-        """(N, d): H times the part of `direction` at `vertices`, with the Hessian of the last factor."""
-        part = np.zeros_like(direction)
-        part[vertices] = direction[vertices]
-        return self.pattern.from_matrix_order(self.pattern.multiply(self.hessian_values, self.pattern.to_matrix_order(part)))
+    def anchor_forces(self, direction: Floats) -> tuple[Floats, float]:
+        """What moving the eliminated vertices along `direction` (N, d) asks of the rest, with the Hessian of the last factor.
+
+        Returns
+        -------
+        (N, d) force H_fa d_a on the free vertices, and the work d_a . (H d)_a at the anchors
+        """
+        vector = self.pattern.to_matrix_order(direction)
+        pushed = self._pushed(vector)
+        pushed[self._fixed_coordinates] = 0.0
+        work = float(vector[self._fixed_coordinates] @ self._reaction(vector))
+        return self.pattern.from_matrix_order(pushed), work
+
+    def _pushed(self, vector: Floats) -> Floats:
+        """H times the eliminated part of `vector`, (dN,); only entries in eliminated rows and columns are touched."""
+        rows, columns, values = self._fixed_triplets()
+        out = np.zeros(self.pattern.size)
+        column_fixed, row_fixed = self._fixed_mask[columns], self._fixed_mask[rows]
+        np.add.at(out, rows[column_fixed], (values * vector[columns])[column_fixed])
+        mirrored = row_fixed & (rows != columns)
+        np.add.at(out, columns[mirrored], (values * vector[rows])[mirrored])
+        return out
+
+    def _reaction(self, vector: Floats) -> Floats:
+        """(k d,) rows of H at the eliminated coordinates times `vector`."""
+        rows, columns, values = self._fixed_triplets()
+        out = np.zeros(self.pattern.size)
+        row_fixed = self._fixed_mask[rows]
+        np.add.at(out, rows[row_fixed], (values * vector[columns])[row_fixed])
+        mirrored = self._fixed_mask[columns] & (rows != columns)
+        np.add.at(out, columns[mirrored], (values * vector[rows])[mirrored])
+        return out[self._fixed_coordinates]
+
+    def _fixed_triplets(self) -> tuple[Integers, Integers, Floats]:
+        entries = self._fixed_entries
+        return self.pattern.rows[entries], self.pattern.columns[entries], self.hessian_values[entries]
 
     def serves(self, fixed: Integers) -> bool:
         """Whether there is a factor in which just the vertices `fixed` are eliminated."""
@@ -74,6 +106,7 @@ class NewtonSystem:
         mask = np.zeros(pattern.size, dtype=bool)
         mask[coordinates] = True
         self._fixed_coordinates = coordinates
+        self._fixed_mask = mask
         self._fixed_entries = np.flatnonzero(mask[pattern.rows] | mask[pattern.columns])
 
     def factorise(self, values: Floats, fixed: Integers) -> None:
@@ -127,7 +160,7 @@ class NewtonSystem:
         if displacement is not None and displacement.any():
             moved = np.zeros(pattern.size)
             moved[self._fixed_coordinates] = displacement.reshape(-1)
-            rhs -= pattern.multiply(self._values, moved)
+            rhs -= self._pushed(moved)
             rhs[self._fixed_coordinates] = displacement.reshape(-1)
         else:
             rhs[self._fixed_coordinates] = 0.0

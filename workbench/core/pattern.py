@@ -84,9 +84,7 @@ def vertex_graph(simplices: Integers, vertex_count: int) -> sparse.csr_matrix:
     pairs = [(a, b) for a in range(width) for b in range(width) if a != b]
     rows = np.concatenate([simplices[:, a] for a, _ in pairs])
     columns = np.concatenate([simplices[:, b] for _, b in pairs])
-    graph = sparse.csr_matrix(
-        (np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count)
-    )
+    graph = sparse.csr_matrix((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count))
     graph.sum_duplicates()
     graph.sort_indices()
     return graph
@@ -97,7 +95,7 @@ def elimination_order(graph: sparse.csr_matrix) -> Integers:
     try:
         import pymetis
 
-        order, _ = pymetis.nested_dissection(xadj=graph.indptr, adjncy=graph.indices)
+        order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(graph.indptr, graph.indices))
         result = np.asarray(order, dtype=np.int64)
     except ImportError:
         result = _minimum_degree_order(graph)
@@ -111,9 +109,7 @@ def _minimum_degree_order(graph: sparse.csr_matrix) -> Integers:
 
         coordinates = sparse.coo_matrix(graph + sparse.identity(graph.shape[0], format="csr"))
         lower = coordinates.row >= coordinates.col
-        matrix = cvxopt.spmatrix(
-            1.0, coordinates.row[lower].tolist(), coordinates.col[lower].tolist(), graph.shape, tc="d"
-        )
+        matrix = cvxopt.spmatrix(1.0, coordinates.row[lower].tolist(), coordinates.col[lower].tolist(), graph.shape, tc="d")
         return np.array(cvxopt.amd.order(matrix, "L"), dtype=np.int64).reshape(-1)
     except ImportError:
         return np.asarray(sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True), dtype=np.int64)

@@ -91,7 +91,7 @@ def load_registry(roots: tuple[Path, ...]) -> Registry:
 def _plugin_files(root: Path) -> list[Path]:
     if not root.is_dir():
         return []
-    files = [p for p in root.glob("*.py")]
+    files = list(root.glob("*.py"))
     for folder in FOLDERS:
         files += (root / folder).glob("*.py")
     return sorted(p for p in files if not p.name.startswith("_"))

@@ -70,9 +70,9 @@ class Solver(Method, ABC):
             floor = 1e-14 * problem.total_measure
             if 0.0 <= decrease <= max(criteria.tolerance * abs(state.energy), floor):
                 return Status.CONVERGED
-        if criteria.gradient_tolerance is not None:
-            if state.gradient_norm <= criteria.gradient_tolerance * characteristic_gradient(problem):
-                return Status.CONVERGED
+        asked = criteria.gradient_tolerance
+        if asked is not None and state.gradient_norm <= asked * characteristic_gradient(problem):
+            return Status.CONVERGED
         return Status.RUNNING
 
     def rebase(self, problem: Problem, state: State) -> State:

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from workbench.core.arrays import Floats, frozen
 from workbench.core.status import Status
 
+if TYPE_CHECKING:
+    from workbench.core.energy import Evaluation
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Approach:
     """How the walk towards moved anchors goes (see `workbench.core.anchor_steps`).
 
     `refresh` : the last factor has grown poor;  `hold` : hold the anchors and relax first;
-    `stuck` : steps in a row that brought the anchors no nearer
+    `stuck` : steps in a row that brought the anchors no nearer;  `evaluation` : energy and gradient at `positions`
     """
 
     refresh: bool = False
     hold: bool = False
     stuck: int = 0
+    positions: Floats | None = field(default=None, repr=False)
+    evaluation: Evaluation | None = field(default=None, repr=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from workbench import __version__
 from workbench.core.registry import load_registry, resource_folder, user_plugin_folder
+from workbench.core.threads import thread_count
 from workbench.engine.system_libraries import install_command, missing_libraries
 
 DISTRIBUTION = "distortion-workbench"
@@ -101,8 +102,7 @@ def plugins() -> Section:
         Finding("your plugins", f"{folder}{'' if folder.is_dir() else ' (make it to add methods of your own)'}"),
         Finding(
             "methods",
-            f"{len(found.distortions)} distortions, {len(found.solvers)} solvers, "
-            f"{len(found.initializers)} initializers",
+            f"{len(found.distortions)} distortions, {len(found.solvers)} solvers, {len(found.initializers)} initializers",
         ),
     ]
     for failure in found.failures:
@@ -140,14 +140,10 @@ def graphics() -> Section:
 
 def _display() -> Finding:
     if not installed_version("PySide6-Essentials"):
-        return Finding(
-            "window", "Qt is not installed; the command line works without it", False, f"pip install {DISTRIBUTION}"
-        )
+        return Finding("window", "Qt is not installed; the command line works without it", False, f"pip install {DISTRIBUTION}")
     if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
         remedy = "start it in a desktop session, or under a virtual screen: xvfb-run workbench"
-        return Finding(
-            "window", "there is no display (DISPLAY is not set); the command line works without it", True, remedy
-        )
+        return Finding("window", "there is no display (DISPLAY is not set); the command line works without it", True, remedy)
     try:
         probe = subprocess.run([sys.executable, "-c", PROBE], capture_output=True, text=True, timeout=60, check=False)
     except subprocess.TimeoutExpired:
@@ -159,9 +155,7 @@ def _display() -> Finding:
 
 
 def _threads() -> Finding:
-    import numba
-
-    return Finding("threads", f"{numba.config.NUMBA_NUM_THREADS} for the kernels (change with --threads N)")
+    return Finding("threads", f"{thread_count()} (change with --threads N)")
 
 
 def _kernel_cache() -> Finding:

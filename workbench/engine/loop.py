@@ -17,8 +17,8 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.problem import Criteria, Problem
-from workbench.core.run import HistoryRow, history_row
 from workbench.core.registry import registry
+from workbench.core.run import HistoryRow, history_row
 from workbench.core.solver import Solver
 from workbench.core.state import State
 from workbench.core.status import Status
@@ -161,18 +161,14 @@ class EngineLoop:
             )
         )
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
-        self._problem = Problem.create(
-            opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions
-        )
+        self._problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
         self._make_start(replace(self._reset, file="", initializer="", parameters={}) if self._reset.file else self._reset)
 
     def _restore(self, command: Restore) -> None:
         self._generation, self._mesh, self._kind = command.generation, command.mesh, command.kind
         self._file_start = command.positions
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
-        self._problem = Problem.create(
-            command.mesh, command.kind, distortion, allow_inversions=self._choices.allow_inversions
-        )
+        self._problem = Problem.create(command.mesh, command.kind, distortion, allow_inversions=self._choices.allow_inversions)
         self._number = command.number
         self._start_from(command.positions, command.iteration)
         self._file_start = None
@@ -341,7 +337,10 @@ class EngineLoop:
             following = self._step(problem, state, solver)
         except Exception as error:
             self._running, self._steps_left = False, 0
-            self._fail(f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}", traceback.format_exc())
+            self._fail(
+                f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}",
+                traceback.format_exc(),
+            )
             self.publish_map()
             return False
         if following is None:

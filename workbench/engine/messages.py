@@ -160,7 +160,7 @@ class Loaded(Report):
 
     generation: int
     mesh: Mesh
-    kind: str
+    kind: Kind
     lines: tuple[str, ...]
     cut_edges: Integers
     source: str

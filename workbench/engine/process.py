@@ -9,6 +9,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from multiprocessing.connection import Connection
 
+import numpy as np
+
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Command, Progress, Ready, Report, SetAnchors, Step
 from workbench.engine.shared_positions import PositionRing
@@ -16,6 +18,7 @@ from workbench.engine.shared_positions import PositionRing
 PUBLISH_INTERVAL = 0.004
 """Seconds; quicker maps than this are not worth a message unless they are news of an anchor or of the end."""
 NAP = 0.010
+NOWHERE = np.empty((0, 2))
 
 
 class CommandBox:
@@ -79,7 +82,7 @@ class _Publisher:
             self._ring = PositionRing(shape)
             self._connection.send((self._ring.name, shape))
         self._ring.write(report.number, report.positions)
-        self._connection.send(replace(report, positions=None, seconds_published=time.perf_counter()))
+        self._connection.send(replace(report, positions=NOWHERE, seconds_published=time.perf_counter()))
         self._last_sent, self._last_serial = time.perf_counter(), report.anchor_serial
 
 
@@ -121,8 +124,6 @@ def engine_main(connection: Connection, spawned_at: float, threads: int) -> None
 
 def warm_up(tell: Callable[[], None]) -> None:
     """Load (or, the first time ever, compile) every kernel on one simplex, so that no drag waits for it."""
-    import numpy as np
-
     from workbench.core.anchor_steps import approach_anchors
     from workbench.core.constraints import Anchors
     from workbench.core.distortion import Distortion

@@ -20,9 +20,7 @@ class PositionRing:
         self.shape = shape
         self._stride = 2 + shape[0] * shape[1]
         size = 8 * SLOTS * self._stride
-        self._memory = (
-            shared_memory.SharedMemory(create=True, size=size) if name is None else shared_memory.SharedMemory(name)
-        )
+        self._memory = shared_memory.SharedMemory(create=True, size=size) if name is None else shared_memory.SharedMemory(name)
         self._array: np.ndarray | None = np.ndarray((SLOTS, self._stride), dtype=np.float64, buffer=self._memory.buf)
 
     @property

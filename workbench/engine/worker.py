@@ -23,7 +23,6 @@ from workbench.engine.messages import (
     Loaded,
     Pause,
     Quit,
-    Ready,
     Refused,
     Report,
     Reset,
@@ -142,7 +141,13 @@ class EngineWorker:
             while not self._closing:
                 self._turn()
         except Exception as error:
-            self._report(Failure(self._generation, f"The engine's owner failed: {error}. Restart the program.", traceback.format_exc()))
+            self._report(
+                Failure(
+                    self._generation,
+                    f"The engine's owner failed: {error}. Restart the program.",
+                    traceback.format_exc(),
+                )
+            )
         finally:
             self._end_process()
 
@@ -208,10 +213,12 @@ class EngineWorker:
                     self._unread_rows += message.rows
                     newest = message
                 elif isinstance(message, tuple):
-                    newest = self._flush(newest)
+                    self._flush(newest)
+                    newest = None
                     self._attach(*message)
                 else:
-                    newest = self._flush(newest)
+                    self._flush(newest)
+                    newest = None
                     self._take_report(message)
         except (EOFError, OSError):
             alive = False
@@ -238,10 +245,10 @@ class EngineWorker:
     def _flush(self, report: MapReport | None) -> None:
         """Turn the newest map into a snapshot for the window."""
         if report is None or self._ring is None or self._loaded is None or self._elements is None:
-            return None
+            return
         positions = self._ring.read(report.number)
         if positions is None:
-            return None  # overwritten meanwhile: a newer one is on its way
+            return  # overwritten meanwhile: a newer one is on its way
         positions.flags.writeable = False
         self._last_map = replace(report, positions=positions)
         self._crashes = 0
@@ -272,7 +279,6 @@ class EngineWorker:
                 snapshot = replace(snapshot, rows=self._snapshot.rows + snapshot.rows)
             self._snapshot = snapshot
         self._wake()
-        return None
 
     def _report(self, report: Report) -> None:
         with self._lock:
@@ -284,7 +290,7 @@ class EngineWorker:
     def _spawn(self) -> None:
         context = multiprocessing.get_context("spawn")
         self._connection, theirs = context.Pipe(duplex=True)
-        with _without_main_module():
+        with WithoutMainModule():
             self._process = context.Process(
                 target=engine_main, args=(theirs, time.time(), self._threads), name="workbench-engine", daemon=True
             )
@@ -301,7 +307,8 @@ class EngineWorker:
         if self._crashes > CRASHES_IN_A_ROW:
             self._settings.pop(SetSolver, None)
             self._running = None
-        self._restart(f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map.", resume=True)
+        sentence = f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map."
+        self._restart(sentence, resume=True)
 
     def _restart(self, sentence: str, *, resume: bool) -> None:
         self._end_process(kill=True)
@@ -317,9 +324,8 @@ class EngineWorker:
                 self._send(self._settings[kind])
         if self._loaded is not None and self._last_map is not None:
             last, loaded = self._last_map, self._loaded
-            self._send(
-                Restore(loaded.generation, loaded.mesh, loaded.kind, last.positions, last.rows[-1].iteration, last.number + 1)
-            )
+            iteration, number = last.rows[-1].iteration, last.number + 1
+            self._send(Restore(loaded.generation, loaded.mesh, loaded.kind, last.positions, iteration, number))
             if SetAnchors in self._settings:
                 self._send(self._settings[SetAnchors])
             if self._running is not None:
@@ -353,7 +359,7 @@ def _how(code: int | None) -> str:
     return f"exit status {code}"
 
 
-class _without_main_module:
+class WithoutMainModule:
     """Spawn without importing the caller's main module again in the child: it may be a script that opens a window."""
 
     def __enter__(self) -> None:
