@@ -38,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return int(options.run(options))
     except WorkbenchError as error:
-        return _refuse(_with_fixes(error))
+        return _refuse(_full_sentence(error))
     except KeyboardInterrupt:
         return _refuse("Interrupted before there was a result; nothing was written.")
     except BrokenPipeError:  # the reader of a pipe has gone, as after `| head`
@@ -77,8 +77,11 @@ def _names_a_source(text: str) -> bool:
     return text.startswith("sample:") or bool(path.suffix) or len(path.parts) > 1 or os.path.exists(text)
 
 
-def _with_fixes(error: WorkbenchError) -> str:
-    """The sentence, and the `--fix` that helps where the sentence does not name it."""
+def _full_sentence(error: WorkbenchError) -> str:
+    """The sentence, with the place in a formula, or the `--fix` that helps, where it does not name them itself."""
+    position = getattr(error, "position", 0)
+    if position:
+        return f"{error.sentence} (at character {position + 1} of the formula)"
     if error.fixes and "--fix" not in error.sentence:
         return f"{error.sentence} Add --fix {','.join(error.fixes)}."
     return error.sentence
