@@ -55,9 +55,7 @@ def component_cut(vertices: Floats, triangles: Integers) -> Integers:
     return cut_to_disk(triangles)
 
 
-def _opened(
-    simplices: Integers, vertex_count: int, table: FacetTable, parted: Booleans
-) -> tuple[Integers, Integers]:
+def _opened(simplices: Integers, vertex_count: int, table: FacetTable, parted: Booleans) -> tuple[Integers, Integers]:
     _, classes = corner_classes(table, simplices.size, ~parted)
     return split_vertices(simplices, vertex_count, classes)
 

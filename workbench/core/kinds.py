@@ -173,5 +173,3 @@ def _check_dimension(mesh: Mesh, kind: Kind) -> None:
         raise MeshError(f"The kind {kind} needs triangles, and these are tetrahedra; use --map volume.")
     if kind == "plane" and not is_flat(mesh):
         raise MeshError("The surface is not flat, and the kind plane needs a flat one; use --map parameterize.")
-
-

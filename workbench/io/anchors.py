@@ -88,9 +88,7 @@ def _vertex(path: Path, line: int, word: str, vertex_count: int) -> int:
     except ValueError:
         raise WorkbenchError(f"{path}, line {line}: {word[:40]!r} is not the number of a vertex.") from None
     if not 0 <= vertex < vertex_count:
-        raise WorkbenchError(
-            f"{path}, line {line}: there is no vertex {vertex}; the mesh has {vertex_count}, numbered from 0."
-        )
+        raise WorkbenchError(f"{path}, line {line}: there is no vertex {vertex}; the mesh has {vertex_count}, numbered from 0.")
     return vertex
 
 

@@ -91,9 +91,7 @@ def mat_arrays(path: Path, data: bytes) -> dict[str, Any]:
 
 def _case(path: Path, vertices: Floats, simplices: Integers, arrays: dict[str, Any]) -> CaseParts:
     mesh = mesh_of_file(path, vertices, simplices)
-    known = {
-        name: finite_rows(path, name, arrays[name], mesh.vertex_count, (2, 3)) for name in ("X0", "X") if name in arrays
-    }
+    known = {name: finite_rows(path, name, arrays[name], mesh.vertex_count, (2, 3)) for name in ("X0", "X") if name in arrays}
     for positions in known.values():
         check_range(path, positions)
     anchors, targets = _anchors(path, mesh, arrays)

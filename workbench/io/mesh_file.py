@@ -60,11 +60,13 @@ def mesh_of_file(
     except MeshError as error:
         raise MeshError(f"{path}: {error.sentence}") from None
     check_range(path, vertices)
+    if not float(np.ptp(vertices, axis=0).max()) > SMALLEST_DIAMETER:
+        raise MeshError(f"{path}: all vertices are at the same place (to {SMALLEST_DIAMETER:g}); scale or mend it.")
     return mesh
 
 
 def check_range(path: Path, vertices: Floats) -> None:
-    """Raises `MeshError` for coordinates too large, or a mesh too small, to compute with."""
+    """Raises `MeshError` for coordinates too large to compute with."""
     too_large = np.abs(vertices) > LARGEST_COORDINATE
     if too_large.any():
         row = int(np.flatnonzero(too_large.any(axis=1))[0])
@@ -72,8 +74,6 @@ def check_range(path: Path, vertices: Floats) -> None:
             f"{path}: vertex {row} (from 0) has a coordinate beyond {LARGEST_COORDINATE:g}, too large to compute with; "
             f"mend it, or scale the mesh."
         )
-    if not float(np.ptp(vertices, axis=0).max()) > SMALLEST_DIAMETER:
-        raise MeshError(f"{path}: all vertices are at the same place (to {SMALLEST_DIAMETER:g}); scale or mend it.")
 
 
 def finite_rows(path: Path, name: str, values: object, rows: int | None, columns: tuple[int, ...]) -> Floats:

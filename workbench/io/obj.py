@@ -152,9 +152,7 @@ def _corner(token: str) -> None:
     np.array([int(part[0]), int(part[1]) if len(part) > 1 and part[1] else 0], dtype=np.int64)
 
 
-def _from_zero(
-    path: Path, index: Integers, before: Integers, count: int, lines: Integers, noun: str, plural: str
-) -> Integers:
+def _from_zero(path: Path, index: Integers, before: Integers, count: int, lines: Integers, noun: str, plural: str) -> Integers:
     """Indices from 1, or counted back from the last one so far where negative, as indices from 0."""
     result = np.where(index > 0, index - 1, before + index)
     bad = (index == 0) | (result < 0) | (result >= count)

@@ -38,9 +38,7 @@ def read_off(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
         )
     vertex_rows = rows[at : at + vertex_count]
     face_rows = rows[at + vertex_count : at + vertex_count + face_count]
-    vertices = np.array(
-        [_parsed(path, row, 0, 3, float, line) for row, line in zip(vertex_rows, numbers[at:], strict=False)]
-    )
+    vertices = np.array([_parsed(path, row, 0, 3, float, line) for row, line in zip(vertex_rows, numbers[at:], strict=False)])
     faces = [
         _parsed(path, row, 1, _size(path, row, line), int, line)
         for row, line in zip(face_rows, numbers[at + vertex_count :], strict=False)

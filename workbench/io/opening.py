@@ -103,9 +103,7 @@ def _given_map(file: MeshFile, mesh: Mesh, kind: Kind) -> tuple[Floats | None, I
     targets = file.anchor_targets
     if targets is not None and targets.shape[1] != (3 if kind == "volume" else 2):
         if kind == "volume" or (len(targets) and np.ptp(targets[:, 2]) > 0):
-            raise MeshError(
-                f"{path}: its targets have {targets.shape[1]} columns; the kind {kind} needs another number."
-            )
+            raise MeshError(f"{path}: its targets have {targets.shape[1]} columns; the kind {kind} needs another number.")
         targets = frozen(targets[:, :2])
     return start, file.anchor_vertices, targets, ""
 

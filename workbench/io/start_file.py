@@ -78,8 +78,7 @@ def _bare_positions(path: Path) -> Floats | None:
     if not name:
         raise MeshError(f"{path}: no positions were found in it (arrays X, X0, fV or V).")
     positions = finite_rows(path, name, arrays[name], None, (2, 3))
-    if len(positions):
-        check_range(path, positions)
+    check_range(path, positions)
     return positions
 
 
