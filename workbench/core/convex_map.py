@@ -7,6 +7,8 @@ still positive, so that what has shrunk takes up more room.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from scipy import sparse
 
@@ -17,10 +19,10 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import Elements, build_elements, signed_singular_values
 from workbench.core.mesh import Mesh
 
-COLLAPSED = 1e8
+COLLAPSED = 1e6
 """Mean symmetric Dirichlet density above which a start is taken as collapsed and repaired."""
 
-_ROUNDS = 14
+_ROUNDS = 16
 _SMALLEST_STRETCH = 1e-18
 
 
@@ -82,32 +84,40 @@ def map_disc(mesh: Mesh, weights: Floats, shape: BoundaryShape, repair: bool) ->
     """
     loop = disc_boundary(mesh)
     outline = convex_outline(mesh, loop, shape)
-    elements = build_elements(mesh)
-
-    def solved(trial: Floats) -> tuple[float, Floats]:
-        positions = solve_with_fixed(laplacian(mesh.simplices, trial, mesh.vertex_count), loop, outline)
-        return mean_symmetric_dirichlet(elements, positions), positions
-
     if not repair:
-        return solved(weights)[1]
-    try:
-        best, positions = solved(weights)
-    except WorkbenchError:  # not definite: negative weights won
-        best, positions = np.inf, np.zeros((mesh.vertex_count, 2))
-    if (weights < 0).any():
-        weights = np.maximum(weights, 0.05 * np.median(np.abs(weights)))
-    for first in (weights, uniform_weights(mesh)):
-        if best < COLLAPSED:
-            break
-        trial = first
+        return _solved(mesh, weights, loop, outline)
+    elements = build_elements(mesh)
+    best, positions = np.inf, np.zeros((mesh.vertex_count, 2))
+    for trial in _attempts(mesh, weights):
+        previous = np.inf
         for _ in range(_ROUNDS):
-            value, current = solved(trial)
-            if value < best:
+            try:
+                current = _solved(mesh, trial, loop, outline)
+            except WorkbenchError:  # not definite: negative weights won
+                break
+            value = mean_symmetric_dirichlet(elements, current)
+            if value < best or not positions.any():
                 best, positions = value, current
             if best < COLLAPSED:
+                return positions
+            without_effect = 0.95 < value / previous < 1.05  # what is left is not for the weights to mend
+            if without_effect or (trial < 0).any():
                 break
+            previous = value
             trial = _spread(elements, current, trial)
     return positions
+
+
+def _solved(mesh: Mesh, weights: Floats, loop: Integers, outline: Floats) -> Floats:
+    return solve_with_fixed(laplacian(mesh.simplices, weights, mesh.vertex_count), loop, outline)
+
+
+def _attempts(mesh: Mesh, weights: Floats) -> Iterator[Floats]:
+    """Weights to begin with: as they are; where some are negative made positive, then uniform."""
+    yield weights
+    if (weights < 0).any():
+        yield np.maximum(weights, 0.05 * np.median(np.abs(weights)))
+        yield uniform_weights(mesh)
 
 
 def mean_symmetric_dirichlet(elements: Elements, positions: Floats) -> float:
