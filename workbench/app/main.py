@@ -27,6 +27,7 @@ def run_window(
     settings_file : path     settings of its own instead of the user's
     """
     application = make_application()
+    from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
     from workbench.app.settings import Settings
     from workbench.app.theme import ThemeSwitch
@@ -36,7 +37,15 @@ def run_window(
     window = MainWindow(switch, settings)
     window.show()
     window.start(source or "")
-    return int(application.exec())
+    # the engine's thread shares the interpreter: it shall give the window its turn soon
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(0.001)
+    garbage = GuiGarbage()
+    try:
+        return int(application.exec())
+    finally:
+        garbage.end()
+        sys.setswitchinterval(interval)
 
 
 def make_application() -> Any:

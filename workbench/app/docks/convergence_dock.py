@@ -6,6 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.history import History
 from workbench.app.theme import Theme
 
@@ -46,10 +47,9 @@ class ConvergenceDock(QDockWidget):
         self._plots: list[pg.PlotItem] = []
         self.curves: list[pg.PlotDataItem] = []
         for column, (_, title) in enumerate(CURVES):
-            plot = self.graphics.addPlot(row=0, col=column, title=title)
-            plot.setMenuEnabled(False)
-            plot.hideButtons()
-            plot.setMouseEnabled(False, False)
+            axis = LogarithmicAxis("left")
+            plot = self.graphics.addPlot(row=0, col=column, title=title, axisItems={"left": axis})
+            calm(plot, self)
             plot.showGrid(x=False, y=True, alpha=0.2)
             curve = plot.plot([], [])
             curve.setDownsampling(auto=True, method="peak")
@@ -64,9 +64,7 @@ class ConvergenceDock(QDockWidget):
         for plot, curve, colour, (_, title) in zip(self._plots, self.curves, theme.curves, CURVES, strict=True):
             curve.setPen(pg.mkPen(colour, width=1.6))
             plot.setTitle(title, color=theme.text, size="9pt")
-            for side in ("bottom", "left"):
-                plot.getAxis(side).setPen(theme.faint)
-                plot.getAxis(side).setTextPen(theme.text)
+            paint_axes(plot, theme)
 
     def _set_logarithmic(self, wanted: bool) -> None:
         # a count may be 0 and has no logarithm
@@ -83,3 +81,6 @@ class ConvergenceDock(QDockWidget):
             if self.logarithmic.isChecked() and name != "inverted":
                 good &= values > 0
             curve.setData(abscissa[good], values[good])
+        counts = self._history.column("inverted")
+        most = float(counts.max()) if len(counts) else 0.0
+        self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)

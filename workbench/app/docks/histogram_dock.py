@@ -7,6 +7,7 @@ import pyqtgraph as pg
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QDockWidget, QWidget
 
+from workbench.app.docks.plots import calm, paint_axes
 from workbench.app.theme import Theme
 from workbench.engine.messages import Snapshot
 
@@ -19,9 +20,7 @@ class HistogramDock(QDockWidget):
         self.setObjectName("histogram")
         self.setToolTip("How many simplices have which mean of their singular values; 1 keeps lengths.")
         self.plot = pg.PlotWidget(self)
-        self.plot.setMenuEnabled(False)
-        self.plot.hideButtons()
-        self.plot.setMouseEnabled(False, False)
+        calm(self.plot.getPlotItem(), self)
         self.plot.setMinimumSize(200, 120)
         # stepMode draws one bar between each two edges
         self._bars = pg.PlotDataItem([0.0, 1.0], [0.0], stepMode="center", fillLevel=0)
@@ -36,10 +35,7 @@ class HistogramDock(QDockWidget):
 
     def set_theme(self, theme: Theme) -> None:
         self.plot.setBackground(theme.view)
-        for side in ("bottom", "left"):
-            axis = self.plot.getAxis(side)
-            axis.setPen(theme.faint)
-            axis.setTextPen(theme.text)
+        paint_axes(self.plot.getPlotItem(), theme)
         colour = QColor(theme.accent)
         self._bars.setPen(pg.mkPen(colour, width=1))
         colour.setAlpha(120)

@@ -64,7 +64,7 @@ class ControlPanel(QScrollArea):
         start_layout.addWidget(self.file_button)
         self._layout.addStretch(1)
         self.setWidget(body)
-        self.setMinimumWidth(276)
+        self.setMinimumWidth(284)
         document.session_changed.connect(self.show_session)
         document.opened.connect(self.show_choices)
         self.show_session()

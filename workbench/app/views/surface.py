@@ -85,6 +85,7 @@ class Surface:
     def show_plain(self) -> None:
         """One colour for all triangles but the inverted."""
         self._drop_texture()
+        self._actor.GetProperty().SetEdgeOpacity(1.0)
         self._is_plain = True
         self._mapper.SetLookupTable(single_colour(self._theme.fill))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
@@ -93,6 +94,7 @@ class Surface:
     def show_range(self, low: float, high: float) -> None:
         """Colours of a distortion from `low` to `high`."""
         self._drop_texture()
+        self._actor.GetProperty().SetEdgeOpacity(0.35)
         self._is_plain = False
         self._mapper.SetLookupTable(lookup_table(distortion_colours(), low, high))
 
@@ -103,6 +105,7 @@ class Surface:
             return
         self._is_plain = False
         self._pattern = pattern
+        self._actor.GetProperty().SetEdgeOpacity(0.25)
         if self._texture_points is None:
             self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
             self._texture_data = numpy_to_vtk(self._texture_points, deep=0)

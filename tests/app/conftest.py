@@ -1,0 +1,111 @@
+"""A window of its own settings for each test, and a check that nothing stays behind."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+pytest.importorskip("PySide6.QtWidgets", exc_type=ImportError)
+
+from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QWidget
+
+from tests.app.fake_engine import FakeWorker
+from workbench.app.engine_bridge import WorkerMaker
+from workbench.app.main_window import MainWindow
+from workbench.app.settings import Settings
+from workbench.app.theme import ThemeSwitch
+from workbench.app.views.mesh_view import MeshView
+
+WindowMaker = Callable[..., MainWindow]
+
+
+def leaked_widgets() -> list[QWidget]:
+    """Top-level widgets that are alive, after everything that waits to be deleted is gone."""
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    QApplication.processEvents()
+    gc.collect()  # in this thread: Qt's objects must not end in another one
+    return [w for w in QApplication.topLevelWidgets() if w.parent() is None and not w.objectName().startswith("qt_")]
+
+
+@pytest.fixture(autouse=True)
+def nothing_leaks(qapp: QApplication) -> Iterator[None]:
+    """Fail where a test leaves a top-level widget: it would crash a later test, far from its cause."""
+    before = {id(w) for w in leaked_widgets()}
+    yield
+    leaked = [w for w in leaked_widgets() if id(w) not in before]
+    assert not leaked, f"top-level widgets were left behind: {leaked}"
+
+
+@pytest.fixture
+def make_window(qtbot: QtBot, tmp_path: Path) -> Iterator[WindowMaker]:
+    """Windows with a settings file of the test's own; closed and deleted at the end."""
+    windows: list[MainWindow] = []
+
+    def make(make_worker: WorkerMaker = FakeWorker, theme: str = "light", source: str = "grid") -> MainWindow:
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        application.setStyle("Fusion")
+        window = MainWindow(ThemeSwitch(application, theme), Settings(tmp_path / "window.ini"), make_worker)
+        windows.append(window)
+        window.resize(1200, 800)
+        window.show()
+        window.activateWindow()  # keys go to the active window only
+        QTest.qWaitForWindowActive(window)
+        if source:
+            window.start(source)
+        return window
+
+    yield make
+    for window in windows:
+        window.close()
+        window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+@pytest.fixture
+def window(make_window: WindowMaker, qtbot: QtBot) -> MainWindow:
+    """A window with the grid of the fake engine in it."""
+    made = make_window()
+    qtbot.waitUntil(lambda: made.document.positions is not None, timeout=10_000)
+    return made
+
+
+def pixel_of(view: MeshView, vertex: int) -> QPoint:
+    """Where a vertex is drawn."""
+    geometry = view.geometry_shown
+    assert geometry is not None
+    x, y = view.project(geometry.points[[vertex]])[0]
+    return QPoint(round(x), round(y))
+
+
+class Hand:
+    """A mouse over one view."""
+
+    def __init__(self, view: MeshView) -> None:
+        self.view = view
+
+    def move(self, where: QPoint) -> None:
+        QTest.mouseMove(self.view.overlay, where)
+
+    def click(self, where: QPoint, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
+        self.move(where)
+        QTest.mouseClick(self.view.overlay, button, Qt.KeyboardModifier.NoModifier, where)
+
+    def press(self, where: QPoint, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
+        QTest.mousePress(self.view.overlay, button, Qt.KeyboardModifier.NoModifier, where)
+
+    def release(self, where: QPoint, button: Qt.MouseButton = Qt.MouseButton.LeftButton) -> None:
+        QTest.mouseRelease(self.view.overlay, button, Qt.KeyboardModifier.NoModifier, where)
+
+    def drag(self, begin: QPoint, end: QPoint, button: Qt.MouseButton = Qt.MouseButton.LeftButton, steps: int = 8) -> None:
+        self.press(begin, button)
+        for step in range(1, steps + 1):
+            self.move(begin + (end - begin) * step / steps)
+            QTest.qWait(20)
+        self.release(end, button)

@@ -1,0 +1,176 @@
+"""Parts of the window that need no engine: ranges, meters, anchors, history, settings, forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from tests.app.conftest import leaked_widgets
+from workbench.app.anchor_set import AnchorSet
+from workbench.app.colour_bar import ticks
+from workbench.app.commands import boundary_vertices
+from workbench.app.error_bar import ErrorBar
+from workbench.app.history import History
+from workbench.app.meters import DragMeter, RateMeter
+from workbench.app.panels.method_form import MethodForm
+from workbench.app.quantities import LIVE_QUANTITIES, ColourRange, rounded_up
+from workbench.app.settings import Settings
+from workbench.app.theme import LIGHT
+from workbench.app.views.geometry import DisplayFrame
+from workbench.core.method import Parameter
+from workbench.engine.messages import HistoryRow
+
+
+@pytest.mark.parametrize(("span", "expected"), [(0.11, 0.2), (1.0, 1.0), (1.2, 2.0), (4.9, 5.0), (5.1, 10.0), (730, 1000)])
+def test_ranges_end_at_round_numbers(span: float, expected: float) -> None:
+    assert rounded_up(span) == pytest.approx(expected)
+
+
+def test_a_range_rises_at_once_and_falls_late(qapp: object) -> None:
+    colour_range = ColourRange(LIVE_QUANTITIES[2])
+    colour_range.take(np.full(100, 5.5, np.float32))
+    assert (colour_range.low, colour_range.high) == (4.0, 6.0)
+    colour_range.take(np.full(100, 20.0, np.float32))
+    assert colour_range.high == 24.0
+    colour_range.take(np.full(100, 10.0, np.float32))
+    assert colour_range.high == 24.0, "colours keep their meaning while values wander"
+    colour_range.take(np.full(100, 4.2, np.float32))
+    assert colour_range.high < 5.0
+    colour_range.is_locked = True
+    colour_range.take(np.full(100, 400.0, np.float32))
+    assert colour_range.high < 5.0
+
+
+def test_values_that_are_not_finite_do_not_count(qapp: object) -> None:
+    colour_range = ColourRange(LIVE_QUANTITIES[0])
+    values = np.ones(100, np.float32)
+    values[:10] = np.inf
+    values[10:20] = np.nan
+    colour_range.take(values)
+    assert np.isfinite(colour_range.high)
+    colour_range.take(np.full(5, np.nan, np.float32))
+    assert np.isfinite(colour_range.high)
+
+
+def test_ticks_begin_and_end_with_the_range() -> None:
+    marks = ticks(1.0, 3.0)
+    assert marks[0] == (0.0, "1")
+    assert marks[-1] == (1.0, "≥ 3")
+
+
+def test_each_event_is_answered_once_by_the_first_map_that_holds_it() -> None:
+    meter = DragMeter()
+    for serial in (1, 2, 3):
+        meter.sent(serial, at=0.0)
+    meter.drawn(2)
+    assert len(meter.delays) == 2
+    meter.drawn(2)
+    assert len(meter.delays) == 2
+    meter.drawn(9)
+    assert len(meter.delays) == 3
+
+
+def test_the_rate_forgets() -> None:
+    meter = RateMeter(window=1.0)
+    for tenth in range(10):
+        meter.take(3, at=tenth / 10)
+    assert meter.rate(at=0.9) == pytest.approx(30)
+    assert meter.rate(at=5.0) == 0
+
+
+def test_anchor_sets_are_values() -> None:
+    first = AnchorSet.at([3, 1], np.arange(10.0).reshape(5, 2))
+    moved = first.with_target(1, (9.0, 9.0))
+    assert first.targets[1] == (2.0, 3.0)
+    assert moved.vertices.tolist() == [3, 1]
+    assert moved.target_array(2).tolist() == [[6.0, 7.0], [9.0, 9.0]]
+    assert moved.without(3).vertices.tolist() == [1]
+    assert moved.joined(first).targets == moved.targets
+    assert AnchorSet.none().target_array(2).shape == (0, 2)
+
+
+def test_history_grows_beyond_its_first_table() -> None:
+    history = History()
+    rows = [HistoryRow(i, 0.1 * i, 5.0 - i, 1.0, 0.5, 1.0, 0, 0.0) for i in range(1000)]
+    history.extend(rows)
+    assert len(history) == 1000
+    np.testing.assert_array_equal(history.column("iteration"), np.arange(1000))
+    history.clear()
+    assert len(history.column("energy")) == 0
+
+
+def test_the_boundary_of_two_triangles_is_all_of_them() -> None:
+    assert boundary_vertices(np.array([[0, 1, 2], [1, 3, 2]])).tolist() == [0, 1, 2, 3]
+    fan = np.array([[0, i, i % 6 + 1] for i in range(1, 7)])
+    assert boundary_vertices(fan).tolist() == [1, 2, 3, 4, 5, 6]
+
+
+def test_a_display_frame_has_diameter_one_and_can_be_undone() -> None:
+    positions = 1e6 + 1e-3 * np.random.default_rng(0).normal(size=(30, 2))
+    frame = DisplayFrame.around(positions)
+    shown = frame.to_display(positions)
+    assert np.linalg.norm(np.ptp(shown, axis=0)) == pytest.approx(1.0)
+    np.testing.assert_allclose(frame.from_display(shown[7]), positions[7], rtol=1e-15)
+
+
+def test_recent_files_newest_first_and_only_those_that_exist(tmp_path: Path) -> None:
+    settings = Settings(tmp_path / "s.ini")
+    paths = [tmp_path / f"{i}.obj" for i in range(12)]
+    for path in paths:
+        path.write_text("")
+        settings.remember_file(str(path))
+    settings.remember_file(str(paths[5]))
+    recent = Settings(tmp_path / "s.ini").recent_files
+    assert recent[0] == str(paths[5])
+    assert len(recent) == 10
+    paths[5].unlink()
+    assert str(paths[5]) not in settings.recent_files
+
+
+def test_forms_report_what_differs_from_the_defaults(qtbot: QtBot) -> None:
+    form = MethodForm()
+    qtbot.addWidget(form)
+    form.show_parameters(
+        (
+            Parameter("safety", float, 0.9, "share of the largest step", minimum=0.1, maximum=1.0),
+            Parameter("count", int, 3),
+            Parameter("boundary", str, "circle", choices=("circle", "square")),
+            Parameter("repair", bool, True),
+        )
+    )
+    safety = form.fields["safety"]
+    with qtbot.waitSignal(form.changed) as caught:
+        safety.setText("0.5")
+        safety.editingFinished.emit()
+    assert caught.args == [{"safety": 0.5}]
+    safety.setText("7")
+    safety.editingFinished.emit()
+    assert form.values == {"safety": 0.5}
+    assert "outside" in safety.toolTip()
+    form.fields["repair"].click()
+    form.fields["boundary"].setCurrentText("square")
+    form.fields["count"].setValue(5)
+    assert form.values == {"safety": 0.5, "repair": False, "boundary": "square", "count": 5}
+
+
+def test_the_error_bar_offers_fixes(qtbot: QtBot) -> None:
+    bar = ErrorBar(LIGHT)
+    qtbot.addWidget(bar)
+    bar.show_message("Two things are wrong.", ("reorient", "cut"), "details")
+    assert [b.text() for b in bar.fix_buttons] == ["Reorient consistently", "Cut open to a disc", "Do all of these"]
+    with qtbot.waitSignal(bar.fix_wanted) as caught:
+        bar.fix_buttons[2].click()
+    assert caught.args == [("reorient", "cut")]
+    assert not bar.isVisible()
+
+
+def test_the_leak_check_can_fail(qtbot: QtBot) -> None:
+    from PySide6.QtWidgets import QWidget
+
+    widget = QWidget()
+    widget.show()
+    assert widget in leaked_widgets()
+    qtbot.addWidget(widget)

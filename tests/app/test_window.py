@@ -1,0 +1,290 @@
+"""The window with a fake engine and a real mouse."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent, QWheelEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from tests.app.conftest import Hand, WindowMaker, pixel_of
+from workbench.app.main_window import MainWindow
+from workbench.engine.messages import Load, Pause, Reset, Run, SetAnchors, SetProblem, SetSolver, Step
+
+
+def commands(window: MainWindow, kind: type) -> list:
+    return [c for c in window.bridge._worker.commands if isinstance(c, kind)]
+
+
+def test_opens_with_source_target_and_panels(window: MainWindow, qtbot: QtBot) -> None:
+    assert window.source.view.geometry_shown is not None
+    assert window.target.view.geometry_shown is not None
+    qtbot.waitUntil(lambda: len(window.histogram.counts) > 0)
+    qtbot.waitUntil(lambda: all(dock.numbers.text() for dock in window.maps))
+    assert "480 triangles" in window.source.caption.text()
+
+
+def test_a_click_sets_an_anchor_in_either_view_and_both_show_it(window: MainWindow) -> None:
+    Hand(window.target.view).click(pixel_of(window.target.view, 0))
+    Hand(window.source.view).click(pixel_of(window.source.view, 272))
+    assert window.document.anchors.vertices.tolist() == [0, 272]
+    for pane in (window.source, window.target):
+        assert pane.view.overlay.scene.anchor_vertices.tolist() == [0, 272]
+    assert window.document.selected == 272
+
+
+def test_hovering_shows_the_vertex_in_both_views(window: MainWindow) -> None:
+    Hand(window.source.view).move(pixel_of(window.source.view, 136) + QPoint(3, 2))
+    QTest.qWait(20)
+    for pane in (window.source, window.target):
+        assert pane.view.overlay.scene.hovered == 136
+
+
+def test_dragging_moves_the_map_and_the_histogram(window: MainWindow, qtbot: QtBot) -> None:
+    target = window.target.view
+    hand = Hand(target)
+    hand.click(pixel_of(target, 0))
+    QTest.keyClick(window, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: len(window.histogram.counts) > 0)
+    before = window.document.positions
+    counts = window.histogram.counts.copy()
+    begin = pixel_of(target, 272)
+    hand.drag(begin, begin + QPoint(-40, 30))
+    qtbot.waitUntil(lambda: not np.allclose(window.document.positions, before))
+    qtbot.waitUntil(lambda: not np.array_equal(window.histogram.counts, counts))
+    sent = commands(window, SetAnchors)
+    assert any(c.dragging for c in sent)
+    assert not sent[-1].dragging, "the last one says that the hand let go"
+    assert [c.serial for c in sent] == sorted({c.serial for c in sent})
+    moved = window.document.anchors.targets[272]
+    np.testing.assert_allclose(moved, target.position_at((begin.x() - 40.0, begin.y() + 30.0)), atol=0.02)
+    assert window.reporter.drag_meter.recent is not None
+
+
+def test_a_drag_is_passed_on_at_most_sixty_times_a_second(window: MainWindow) -> None:
+    target = window.target.view
+    hand = Hand(target)
+    begin = pixel_of(target, 272)
+    hand.press(begin)
+    count = len(commands(window, SetAnchors))
+    for step in range(200):
+        hand.move(begin - QPoint(step // 4 + 3, 0))
+    assert len(commands(window, SetAnchors)) - count <= 40
+    hand.release(begin - QPoint(53, 0))
+    expected = target.position_at((begin.x() - 53.0, float(begin.y())))
+    np.testing.assert_allclose(window.document.anchors.targets[272], expected, atol=0.02)
+
+
+def test_right_click_and_delete_remove_anchors(window: MainWindow) -> None:
+    target = window.target.view
+    hand = Hand(target)
+    for vertex in (0, 20, 272):
+        hand.click(pixel_of(target, vertex))
+    hand.click(pixel_of(target, 20), Qt.MouseButton.RightButton)
+    assert window.document.anchors.vertices.tolist() == [0, 272]
+    QTest.keyClick(window, Qt.Key.Key_Delete)
+    assert window.document.anchors.vertices.tolist() == [0]
+    window.actions_by_name["clear"].trigger()
+    assert not len(window.document.anchors)
+
+
+def test_pin_boundary(window: MainWindow, qtbot: QtBot) -> None:
+    window.actions_by_name["pin"].trigger()
+    qtbot.waitUntil(lambda: len(window.document.anchors) == 2 * (20 + 12))
+
+
+def test_wheel_zooms_and_middle_drag_pans_and_double_click_fits(window: MainWindow, qtbot: QtBot) -> None:
+    view = window.target.view
+    qtbot.waitUntil(lambda: window.panel.solver.combo.count() > 0, timeout=20_000)
+    QTest.qWait(100)  # the panel has found its width
+    at = pixel_of(view, 40)
+    scale = view.camera.half_height
+    where = QPointF(at)
+    wheel = QWheelEvent(
+        where, view.overlay.mapToGlobal(where), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
+        Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(view.overlay, wheel)
+    assert view.camera.half_height == pytest.approx(scale / 1.44)
+    assert (pixel_of(view, 40) - at).manhattanLength() <= 1
+    Hand(view).drag(at, at + QPoint(50, 20), Qt.MouseButton.MiddleButton)
+    assert (pixel_of(view, 40) - at - QPoint(50, 20)).manhattanLength() <= 2
+    QTest.mouseDClick(view.overlay, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, QPoint(4, 4))
+    assert view.camera.half_height == pytest.approx(scale, rel=1e-3)
+
+
+def test_a_surface_in_space_turns_and_still_takes_anchors(make_window: WindowMaker, qtbot: QtBot) -> None:
+    window = make_window(source="bumpy")
+    qtbot.waitUntil(lambda: window.document.positions is not None)
+    view = window.source.view
+    axes = view.camera.axes.copy()
+    Hand(view).drag(QPoint(10, 10), QPoint(60, 40))
+    assert not np.allclose(view.camera.axes, axes)
+    assert not len(window.document.anchors)
+    vertex = view.vertex_at((view.width() / 2, view.height() / 2))
+    assert vertex >= 0
+    Hand(view).click(pixel_of(view, vertex))
+    assert window.document.anchors.vertices.tolist() == [vertex]
+
+
+def test_keys_run_pause_step_reset(window: MainWindow) -> None:
+    QTest.keyClick(window, Qt.Key.Key_Space)
+    assert len(commands(window, Run)) == 1
+    assert window.actions_by_name["run"].text() == "Pause"
+    QTest.keyClick(window, Qt.Key.Key_Space)
+    assert len(commands(window, Pause)) == 1
+    QTest.keyClick(window, Qt.Key.Key_Period)
+    assert len(commands(window, Step)) == 1
+    QTest.keyClick(window, Qt.Key.Key_Home)
+    assert len(commands(window, Reset)) == 1
+
+
+def test_choices_become_commands_while_it_runs(window: MainWindow, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: window.panel.distortion.combo.count() > 0, timeout=20_000)
+    window.document.run()
+    combo = window.panel.distortion.combo
+    row = combo.findData("mips")
+    assert row >= 0
+    combo.setCurrentIndex(row)
+    combo.activated.emit(row)
+    assert commands(window, SetProblem)[-1].distortion == "mips"
+    window.panel.boundary.setCurrentIndex(1)
+    window.panel.boundary.activated.emit(1)
+    assert commands(window, SetProblem)[-1].fixed_boundary
+    row = window.panel.solver.combo.findData("gradient-descent")
+    window.panel.solver.combo.setCurrentIndex(row)
+    window.panel.solver.combo.activated.emit(row)
+    assert commands(window, SetSolver)[-1].solver == "gradient-descent"
+    window.panel.scale.setCurrentIndex(1)
+    window.panel.scale.activated.emit(1)
+    assert commands(window, Reset)[-1].match_area is False
+
+
+def test_a_typed_formula_is_checked_and_taken(window: MainWindow, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: window.panel.distortion.combo.count() > 0, timeout=20_000)
+    box = window.panel.distortion
+    edit = box.combo.lineEdit()
+    edit.setFocus()
+    edit.selectAll()
+    QTest.keyClicks(edit, "sum(sigma^2) + __import__")
+    qtbot.waitUntil(lambda: box.error.isVisibleTo(box))
+    assert box.error.text()
+    QTest.keyClick(edit, Qt.Key.Key_Return)
+    assert commands(window, SetProblem)[-1].distortion == "symmetric-dirichlet"
+    edit.selectAll()
+    QTest.keyClicks(edit, "sum(sigma^4 + 1/sigma^4)")
+    QTest.keyClick(edit, Qt.Key.Key_Return)
+    assert commands(window, SetProblem)[-1].distortion == "sum(sigma^4 + 1/sigma^4)"
+    assert not box.error.isVisibleTo(box)
+
+
+def test_a_refusal_offers_its_fix_and_the_fix_opens(make_window: WindowMaker, qtbot: QtBot) -> None:
+    window = make_window(source="closed")
+    qtbot.waitUntil(window.error_bar.isVisible)
+    assert "cut" in window.error_bar.sentence.text()
+    QTest.mouseClick(window.error_bar.fix_buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.document.positions is not None)
+    assert commands(window, Load)[-1].fixes == ("cut",)
+    assert window.source.view.surface._cut_actor.GetVisibility()
+
+
+def test_a_refused_file_leaves_the_present_map_alive(window: MainWindow, qtbot: QtBot) -> None:
+    window.open("closed")
+    qtbot.waitUntil(window.error_bar.isVisible)
+    before = window.document.snapshot.number
+    window.document.step()
+    qtbot.waitUntil(lambda: window.document.snapshot.number > before)
+
+
+def test_volumes_are_refused_with_a_sentence(make_window: WindowMaker, qtbot: QtBot) -> None:
+    window = make_window(source="tets")
+    qtbot.waitUntil(window.error_bar.isVisible)
+    assert "command line" in window.error_bar.sentence.text()
+    assert window.document.mesh is None
+
+
+def test_failures_show_their_traceback_in_the_details(make_window: WindowMaker, qtbot: QtBot) -> None:
+    window = make_window(source="raises")
+    qtbot.waitUntil(window.error_bar.isVisible)
+    window.error_bar.details_button.click()
+    assert "Traceback" in window.error_bar.details.toPlainText()
+    assert window.error_bar.details.isVisible()
+
+
+def test_stop_ends_what_hangs_and_says_so(window: MainWindow, qtbot: QtBot) -> None:
+    window.actions_by_name["stop"].trigger()
+    assert window.bridge._worker.stop_count == 1
+    qtbot.waitUntil(window.error_bar.isVisible)
+
+
+def test_a_dropped_file_is_opened(window: MainWindow, tmp_path: Path) -> None:
+    path = tmp_path / "bumpy.obj"
+    path.write_text("")
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    drop = QDropEvent(
+        QPointF(50, 50), Qt.DropAction.CopyAction, data, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    )
+    window.dropEvent(drop)
+    assert commands(window, Load)[-1].source == str(path)
+
+
+def test_recent_files_and_screenshots(window: MainWindow, tmp_path: Path, qtbot: QtBot) -> None:
+    path = tmp_path / "grid.obj"
+    path.write_text("")
+    window.open(str(path))
+    qtbot.waitUntil(lambda: window.document.session.source == str(path))
+    assert window.settings.recent_files == [str(path)]
+    for widget in (window, window.source.view):
+        window.commands.save_screenshot(widget, str(tmp_path / "shot.png"))
+        assert (tmp_path / "shot.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_views_and_plots_follow_the_theme(make_window: WindowMaker, qtbot: QtBot, theme: str) -> None:
+    window = make_window(theme=theme)
+    qtbot.waitUntil(lambda: window.document.positions is not None)
+    QTest.qWait(150)
+    picture = window.target.view.grab().toImage()
+    colour = picture.pixelColor(3, 3)
+    assert (colour.lightness() < 80) == (theme == "dark")
+    other = "dark" if theme == "light" else "light"
+    window.commands.choose_theme(other)
+    QTest.qWait(150)
+    assert (window.target.view.grab().toImage().pixelColor(3, 3).lightness() < 80) == (other == "dark")
+
+
+def test_inverted_triangles_are_drawn_yellow(window: MainWindow, qtbot: QtBot) -> None:
+    target = window.target.view
+    hand = Hand(target)
+    hand.click(pixel_of(target, 0))
+    hand.click(pixel_of(target, 272))
+    begin = pixel_of(target, 136)
+    hand.drag(begin, begin + QPoint(120, 0), steps=4)
+    qtbot.waitUntil(lambda: window.document.snapshot.inverted.any())
+    QTest.qWait(200)
+    row = int(np.flatnonzero(window.document.snapshot.inverted)[0])
+    # in the source the triangle has its full size, whatever became of it in the target
+    source = window.source.view
+    corners = source.project(source.geometry_shown.points[source.geometry_shown.triangles[row]])
+    x, y = corners.mean(axis=0)
+    colour = source.grab().toImage().pixelColor(round(x), round(y))
+    assert colour.red() > 90
+    assert colour.blue() < 0.4 * colour.red()
+
+
+def test_only_views_that_are_to_be_seen_are_drawn(window: MainWindow, qtbot: QtBot) -> None:
+    dock = window.maps[0]
+    dock.hide()
+    QTest.qWait(150)
+    drawn = []
+    dock.view.drawn.connect(lambda: drawn.append(1))
+    hand = Hand(window.target.view)
+    begin = pixel_of(window.target.view, 272)
+    hand.drag(begin, begin + QPoint(-20, 10))
+    assert not drawn

@@ -1,0 +1,73 @@
+"""What our pyqtgraph plots have in common."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+
+from workbench.app.theme import Theme
+
+
+class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
+    """An axis whose marks stand at powers of ten, or at 1, 2, 5 times them where few powers are in sight."""
+
+    def tickValues(self, low: float, high: float, size: float) -> list[tuple[float, list[float]]]:  # noqa: N802
+        if not self.logMode:
+            return list(super().tickValues(low, high, size))
+        most = max(int(size / 28), 2)
+        return [(1.0, decade_marks(low, high, most))]
+
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802
+        if not self.logMode:
+            return list(super().tickStrings(values, scale, spacing))
+        return [short_number(10.0**value) for value in values]
+
+
+def decade_marks(low: float, high: float, most: int) -> list[float]:
+    """Logarithms of at most `most` round numbers between 10**low and 10**high; evenly spread where none is round."""
+    if not (math.isfinite(low) and math.isfinite(high)) or high <= low:
+        return []
+    decades = list(range(math.ceil(low), math.floor(high) + 1))
+    if len(decades) >= 3:
+        step = math.ceil(len(decades) / most)
+        return [float(d) for d in decades if d % step == 0] or [float(decades[0])]
+    for factors in ((1, 2, 3, 4, 5, 6, 7, 8, 9), (1, 2, 5)):
+        marks = [d + math.log10(f) for d in range(math.floor(low), math.ceil(high) + 1) for f in factors]
+        marks = [m for m in marks if low <= m <= high]
+        if 2 <= len(marks) <= most:
+            return marks
+        if len(marks) < 2:
+            break
+    count = min(most, 3)
+    return [low + (high - low) * (i + 0.5) / count for i in range(count)]
+
+
+def short_number(value: float) -> str:
+    """Four digits where the number is of ordinary size, else a power of ten."""
+    if 1e-3 <= value < 1e5:
+        return f"{value:.4g}"
+    text = f"{value:.1e}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
+    return text.replace(".0e", "e")
+
+
+def calm(plot: pg.PlotItem, owner: QWidget) -> None:
+    """No menus, no dragging: the plot shows what there is. Its menu gets an owner, or it would outlive the window."""
+    plot.setMenuEnabled(False)
+    plot.hideButtons()
+    plot.setMouseEnabled(False, False)
+    for menu in (plot.ctrlMenu, plot.getViewBox().menu):
+        if menu is not None:
+            menu.setParent(owner, Qt.WindowType.Popup)
+
+
+def paint_axes(plot: pg.PlotItem, theme: Theme) -> None:
+    """Axes and their numbers in the colours of a theme."""
+    for side in ("bottom", "left"):
+        axis: Any = plot.getAxis(side)
+        axis.setPen(theme.faint)
+        axis.setTextPen(theme.text)
+        axis.setStyle(tickLength=4, maxTickLevel=0)
