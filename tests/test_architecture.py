@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -38,8 +40,7 @@ def foreign_to_plugins(source: str) -> set[str]:
     return {
         module
         for module in imported_modules(source)
-        if module not in PLUGINS_MAY_IMPORT
-        and module.partition(".")[0] not in (PLUGINS_MAY_IMPORT | sys.stdlib_module_names)
+        if module not in PLUGINS_MAY_IMPORT and module.partition(".")[0] not in (PLUGINS_MAY_IMPORT | sys.stdlib_module_names)
     }
 
 
@@ -47,11 +48,7 @@ def undocumented(source: str) -> list[str]:
     """Public functions and classes of a module that have no docstring."""
     missing = []
     for node in ast.parse(source).body:
-        if (
-            isinstance(node, ast.FunctionDef | ast.ClassDef)
-            and not node.name.startswith("_")
-            and not ast.get_docstring(node)
-        ):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_") and not ast.get_docstring(node):
             missing.append(node.name)
     return missing
 
@@ -91,6 +88,31 @@ def test_public_names_of_core_have_docstrings(path):
 
 def test_the_check_of_docstrings_can_fail():
     assert undocumented("def measure(mesh):\n    return 0\n\nclass Mesh:\n    pass\n") == ["measure", "Mesh"]
+
+
+DISTRIBUTION_OF = {
+    "PySide6": "pyside6-essentials",
+    "igl": "libigl",
+    "vtkmodules": "vtk",
+}  # where the module's name is not that of the distribution
+INSTALLED_WITH_ANOTHER = {"pyvista"}  # named for its version bounds: pyvistaqt is built on it
+
+
+def declared(table: list[str]) -> set[str]:
+    """Names of the distributions of a list of requirements."""
+    return {re.split(r"[^A-Za-z0-9._-]", line, maxsplit=1)[0].lower() for line in table}
+
+
+def test_dependencies_are_what_is_imported():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    shipped = [path for path in PYTHON_FILES if path.relative_to(ROOT).parts[0] != "tests"]
+    modules = {m.partition(".")[0] for path in shipped for m in imported_modules(path.read_text(encoding="utf-8"))}
+    foreign = {m for m in modules if m and m not in sys.stdlib_module_names and m != "workbench"}
+    needed = {DISTRIBUTION_OF.get(module, module) for module in foreign}
+    required = declared(project["dependencies"])
+    optional = declared(project["optional-dependencies"]["mkl"])
+    assert needed <= required | optional
+    assert required <= needed | INSTALLED_WITH_ANOTHER
 
 
 def test_the_command_line_loads_nothing_heavy():

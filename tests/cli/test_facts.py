@@ -18,9 +18,7 @@ ALL_KINDS = (
 @pytest.mark.parametrize("kind", ALL_KINDS)
 def test_every_kind_can_be_listed(kind, cli):
     entries = cli("list", kind, "--json").json
-    assert all(
-        {"kind", "id", "label", "citation", "kinds"} <= entry.keys() and entry["kind"] == kind for entry in entries
-    )
+    assert all({"kind", "id", "label", "citation", "kinds"} <= entry.keys() and entry["kind"] == kind for entry in entries)
     said = cli("list", kind)
     assert said.status == 0 and all(entry["id"] in said.out for entry in entries)
 
@@ -39,9 +37,7 @@ def test_samples_that_are_listed_can_be_solved(cli, tmp_path):
     assert cli("solve", sources[0], "--out", tmp_path / "o.obj", "--quiet").status == 0
 
 
-@pytest.mark.parametrize(
-    ("text", "dim", "value"), [("sum(sigma^2 + 1/sigma^2)", 2, 4), ("sum(sigma^2 + 1/sigma^2)", 3, 6)]
-)
+@pytest.mark.parametrize(("text", "dim", "value"), [("sum(sigma^2 + 1/sigma^2)", 2, 4), ("sum(sigma^2 + 1/sigma^2)", 3, 6)])
 def test_check_gives_the_value_at_a_similarity(text, dim, value, cli):
     facts = cli("check", text, "--dim", dim, "--json").json
     assert facts["value_at_ones"] == pytest.approx(value, rel=1e-15)

@@ -38,9 +38,7 @@ def solve(cli, tmp_path):
 
 
 def lines_of(path, keyword):
-    return np.array(
-        [line.split()[1:] for line in path.read_text().splitlines() if line.startswith(keyword + " ")], float
-    )
+    return np.array([line.split()[1:] for line in path.read_text().splitlines() if line.startswith(keyword + " ")], float)
 
 
 def test_a_surface_is_flattened_and_its_file_kept(solve, dome_file, dome, tmp_path):
@@ -94,9 +92,7 @@ def test_anchors_of_a_table_are_reached(solve, square_file, tmp_path):
 def test_volumes_are_solved_too(solve, cube, tmp_path):
     case = tmp_path / "cube.npz"
     corner = np.array([0, cube.vertex_count - 1])
-    np.savez(
-        case, V=cube.vertices, S=cube.simplices, X0=cube.vertices, anchors=corner, targets=[[0, 0, 0], [1.2, 1.3, 1.4]]
-    )
+    np.savez(case, V=cube.vertices, S=cube.simplices, X0=cube.vertices, anchors=corner, targets=[[0, 0, 0], [1.2, 1.3, 1.4]])
     outcome, report, _ = solve(case, out="out.npz")
     assert outcome.status == 0 and report["input"]["kind"] == "volume" and report["init"] == "file"
     assert report["anchors"]["count"] == 2 and report["inverted"] == 0
@@ -234,9 +230,7 @@ def test_a_plugin_that_raises_fails_with_its_last_map(project_root, tmp_path, do
         return subprocess.run(command, cwd=project_root, env=environment, capture_output=True, text=True, check=False)
 
     report = tmp_path / "r.json"
-    done = run(
-        "solve", dome_file, "--out", tmp_path / "o.obj", "--solver", "broken", "--tolerance", 0, "--report", report
-    )
+    done = run("solve", dome_file, "--out", tmp_path / "o.obj", "--solver", "broken", "--tolerance", 0, "--report", report)
     assert done.returncode == 1, done.stderr
     assert done.stderr.strip().splitlines()[-1] == "workbench: Broken failed in step 3: ZeroDivisionError: by a plugin"
     assert strict_json(report.read_text())["status"] == "FAILED" and (tmp_path / "o.obj").exists()

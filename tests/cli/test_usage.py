@@ -92,7 +92,7 @@ def test_no_command_opens_the_window(arguments, source, cli, square_file, monkey
     monkeypatch.setitem(sys.modules, "workbench.app.main", module)
     file = str(square_file)
     assert cli(*[file if item == "FILE" else item for item in arguments]).status == 0
-    theme = "dark" if any("theme" in item for item in arguments) else "system"
+    theme = "dark" if any("theme" in item for item in arguments) else ""
     assert seen == [(file if source == "FILE" else source, {"theme": theme})]
 
 
@@ -110,7 +110,5 @@ def test_runs_as_a_module(project_root):
 
 def test_a_reader_that_goes_away_is_no_fault(project_root):
     command = f'"{sys.executable}" -m workbench list --json | head -n 1'
-    done = subprocess.run(
-        command, shell=True, cwd=project_root, capture_output=True, text=True, timeout=120, check=False
-    )
+    done = subprocess.run(command, shell=True, cwd=project_root, capture_output=True, text=True, timeout=120, check=False)
     assert "Traceback" not in done.stderr and "Exception" not in done.stderr

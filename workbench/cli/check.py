@@ -9,9 +9,7 @@ from workbench.cli.settings import add_set_option, assign
 
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
-        name, help="read a distortion's formula: accepted with its values, or refused with the reason"
-    )
+    parser = commands.add_parser(name, help="read a distortion's formula: accepted with its values, or refused with the reason")
     parser.add_argument("distortion", metavar="ID|FORMULA", help="a registered distortion, or a formula in sigma")
     add_set_option(parser, "the formula")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2, help="dimension of the simplices (default: 2)")
@@ -47,7 +45,5 @@ def run(options: argparse.Namespace) -> int:
     print(f"{facts['label']}: {facts['formula']}" + (f" with {parameters}" if parameters else ""))
     ones = ", ".join(["1"] * options.dim)
     print(f"value at ({ones}): {number(facts['value_at_ones'], 12)}")
-    print(
-        "counts as infinite on inverted simplices" if facts["barrier"] else "finite on inverted simplices: no barrier"
-    )
+    print("counts as infinite on inverted simplices" if facts["barrier"] else "finite on inverted simplices: no barrier")
     return 0

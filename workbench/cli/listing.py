@@ -13,9 +13,7 @@ Entry = dict[str, Any]
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="what there is: " + ", ".join(LISTINGS))
-    parser.add_argument(
-        "kind", nargs="?", metavar="KIND", choices=tuple(LISTINGS), help="only these: " + ", ".join(LISTINGS)
-    )
+    parser.add_argument("kind", nargs="?", metavar="KIND", choices=tuple(LISTINGS), help="only these: " + ", ".join(LISTINGS))
     parser.add_argument("--json", action="store_true", help="a JSON list of {kind, id, label, citation, kinds, ...}")
     parser.set_defaults(run=run)
 
@@ -99,9 +97,7 @@ def _methods(folder: str) -> list[Entry]:
 def cuts() -> list[Entry]:
     """The operations of `--fix` that cut a mesh open."""
     return [
-        _entry(
-            "cuts", "seams", "Cut along the texture seams of the file", kinds=("parameterize",), option="--fix seams"
-        ),
+        _entry("cuts", "seams", "Cut along the texture seams of the file", kinds=("parameterize",), option="--fix seams"),
         _entry(
             "cuts",
             "cut",
@@ -125,9 +121,7 @@ def analyses() -> list[Entry]:
     """What can be asked of a map beside its measures."""
     from workbench.core.method import KINDS
 
-    return [
-        _entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)
-    ]
+    return [_entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)]
 
 
 def samples() -> list[Entry]:
@@ -136,8 +130,7 @@ def samples() -> list[Entry]:
 
     infos = [sample_info(id) for id in sample_ids()]
     return [
-        _entry("samples", i.id, i.label, kinds=(i.kind,), description=i.description, source=f"sample:{i.id}")
-        for i in infos
+        _entry("samples", i.id, i.label, kinds=(i.kind,), description=i.description, source=f"sample:{i.id}") for i in infos
     ]
 
 
@@ -168,8 +161,7 @@ def plugins() -> list[Entry]:
     for (folder, id), path in found.origins.items():
         by_path.setdefault(str(path), []).append(f"{folder}/{id}")
     good = [
-        _entry("plugins", path.rpartition("/")[2], ", ".join(ids), path=path, status="loaded")
-        for path, ids in by_path.items()
+        _entry("plugins", path.rpartition("/")[2], ", ".join(ids), path=path, status="loaded") for path, ids in by_path.items()
     ]
     bad = [
         _entry("plugins", item.path.name, "failed", path=str(item.path), status="failed", error=item.sentence)

@@ -11,9 +11,8 @@ from workbench.core.errors import WorkbenchError
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="open the window; also without the word: workbench FILE")
     parser.add_argument("source", nargs="?", metavar="FILE", help="mesh file, or sample:ID; without it a sample")
-    parser.add_argument(
-        "--theme", choices=("system", "light", "dark"), default="system", help="colours (default: system)"
-    )
+    themes, when = ("system", "light", "dark"), "default: your last choice, at first the system's"
+    parser.add_argument("--theme", choices=themes, default="", help=f"colours ({when})")
     parser.set_defaults(run=run)
 
 

@@ -74,9 +74,7 @@ def add_solve_options(parser: argparse.ArgumentParser) -> None:
     add("--solver", default="projected-newton", metavar="ID", help="default: projected-newton")
     add("--init", metavar="ID|FILE", help="start: an initializer, or a map in a file (default: rest; surfaces: tutte)")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
-    add(
-        "--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)"
-    )
+    add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")
     add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")
     add("--tolerance", type=amount, default=1e-6, metavar="T", help="relative energy decrease (default: 1e-6)")
     add("--gradient-tolerance", type=amount, metavar="T", help="characteristic gradient norm to reach as well")

@@ -28,9 +28,7 @@ PROGRESS_INTERVAL = 0.5
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="map a mesh and write the map")
     parser.add_argument("file", metavar="FILE", help="mesh file, case (.npz), or sample:ID")
-    parser.add_argument(
-        "--out", required=True, metavar="OUT", help="the map: .obj, .npz, .vtu, or .csv of its measures"
-    )
+    parser.add_argument("--out", required=True, metavar="OUT", help="the map: .obj, .npz, .vtu, or .csv of its measures")
     add_solve_options(parser)
     parser.add_argument("--report", metavar="REPORT.json", help="one JSON object about the run")
     parser.add_argument("--history", metavar="HISTORY.csv", help="a row an iteration")
@@ -103,9 +101,7 @@ def _solve(
         )
     except Exception as error:
         if not states:
-            raise WorkbenchError(
-                f"{prepared.solver.label} failed at the start: {type(error).__name__}: {error}"
-            ) from error
+            raise WorkbenchError(f"{prepared.solver.label} failed at the start: {type(error).__name__}: {error}") from error
         seconds = {"total": time.perf_counter() - begin, **prepared.problem.workspace.all_seconds()}
         sentence = f"{prepared.solver.label} failed in step {states[-1].iteration + 1}: {type(error).__name__}: {error}"
         return RunResult(states[-1], states[0], tuple(rows), seconds), sentence

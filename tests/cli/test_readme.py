@@ -1,0 +1,53 @@
+"""What the README shows works as it stands there."""
+
+from __future__ import annotations
+
+import re
+import shlex
+
+import pytest
+
+from workbench.cli.main import build_parser
+from workbench.core.registry import load_registry
+
+README = "README.md"
+
+
+def code_lines(text: str) -> list[str]:
+    """Lines of the indented blocks, without their remarks."""
+    return [line[4:].partition("  #")[0].rstrip() for line in text.splitlines() if line.startswith("    ")]
+
+
+@pytest.fixture(scope="module")
+def readme(project_root) -> str:
+    return (project_root / README).read_text(encoding="utf-8")
+
+
+def test_every_command_line_is_understood(readme):
+    commands = [line for line in code_lines(readme) if line.startswith("workbench ")]
+    assert len(commands) >= 6
+    for line in commands:
+        assert build_parser().parse_args(shlex.split(line)[1:]).run
+
+
+def test_every_make_target_exists(readme, project_root):
+    makefile = (project_root / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"\bmake ([a-z]+)\b", readme))
+    assert {"run", "test", "bench"} <= targets
+    assert all(re.search(rf"^{target}:", makefile, re.MULTILINE) for target in targets)
+
+
+def test_the_example_of_a_plugin_is_one(readme, tmp_path):
+    lines = code_lines(readme)
+    first = lines.index("from workbench.api import Distortion")
+    (tmp_path / "stretch.py").write_text("\n".join(lines[first : first + 3]) + "\n")
+    found = load_registry((tmp_path,))
+    assert not found.failures
+    assert set(found.distortions) == {"stretch"}
+    found.distortions["stretch"].compiled(2)
+
+
+def test_links_lead_somewhere(readme, project_root):
+    for target in re.findall(r"\]\(([^)#]+)\)", readme):
+        if not target.startswith("http") and not target.startswith("assets/screenshots/"):
+            assert (project_root / target).exists(), target
