@@ -1,0 +1,222 @@
+"""Verdicts on a map: inverted simplices, local and global injectivity, with the offenders."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.mesh import Mesh
+from workbench.core.predicates import orientation, orientation_3d, rays_coincide, segments_meet
+from workbench.core.segment_pairs import box_pairs
+from workbench.core.vertex_stars import overlapping_edges_3d, overlapping_stars
+
+_NONE = np.empty(0, dtype=np.int64)
+_NO_PAIRS = np.empty((0, 2, 2), dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """Whether a map is injective, why not, and what is to blame.
+
+    Parameters
+    ----------
+    holds : bool or None                  None where it cannot be told
+    reason : str                          one sentence
+    inverted : (k,) int64                 simplices that are turned over, compared with the source
+    degenerate : (k,) int64               simplices of exactly no area or volume
+    vertices : (k,) int64                 vertices whose star overlaps itself
+    edges : (k, 2) int64                  with two triangles on one side, or wound round more than once by tetrahedra
+    boundary_pairs : (k, 2, 2) int64      pairs of boundary edges that meet wrongly
+    """
+
+    holds: bool | None
+    reason: str
+    inverted: Integers = field(default_factory=lambda: _NONE)
+    degenerate: Integers = field(default_factory=lambda: _NONE)
+    vertices: Integers = field(default_factory=lambda: _NONE)
+    edges: Integers = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
+    boundary_pairs: Integers = field(default_factory=lambda: _NO_PAIRS)
+
+
+def orientation_signs(mesh: Mesh, positions: Floats) -> Integers:
+    """Exact sign (m,) of each simplex in the map, relative to the source where that has signs: -1 turned over, 0 flat.
+
+    Parameters
+    ----------
+    positions : (n, d) float64     d the dimension of the simplices, finite
+    """
+    signs = _signs(positions, mesh.simplices)
+    if mesh.vertices.shape[1] == mesh.dimension:
+        signs = signs * _signs(mesh.vertices, mesh.simplices)
+    return signs
+
+
+def local_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
+    """Whether the map is one-to-one near every point.
+
+    All simplices have one orientation, no two lie on the same side of a shared edge, the star of every inner vertex
+    winds round it exactly once (Fig. 13), and the star of no boundary vertex overlaps itself. A map that is mirrored as
+    a whole passes, with a remark; its simplices are listed as inverted. For tetrahedra the stars of edges are tested
+    in floating point, those of boundary vertices not at all.
+
+    Parameters
+    ----------
+    positions : (n, d) float64
+    """
+    problem = _unfit(mesh, positions)
+    if problem:
+        return Verdict(False, problem)
+    signs = orientation_signs(mesh, positions)
+    inverted, degenerate = np.flatnonzero(signs < 0), np.flatnonzero(signs == 0)
+    is_mirrored = len(inverted) == mesh.simplex_count
+    if len(degenerate) or (len(inverted) and not is_mirrored):
+        return Verdict(False, _turned_sentence(mesh, inverted, degenerate), inverted, degenerate)
+    mirrored = " The map is mirrored as a whole." if is_mirrored else ""
+
+    if mesh.dimension == 3:
+        edges = overlapping_edges_3d(mesh, positions)
+        if len(edges):
+            reason = f"The tetrahedra round {len(edges)} edges overlap, first round {_edge(edges[0])}."
+            return Verdict(False, reason + mirrored, inverted, edges=edges)
+        return Verdict(True, "Every tetrahedron and every star of an edge is upright." + mirrored, inverted)
+
+    triangles = _counter_clockwise(mesh, positions)
+    edges, has_twin = match_sides(triangles, mesh.vertex_count)
+    if len(edges):
+        reason = f"Two triangles lie on the same side of {len(edges)} edges, first of {_edge(edges[0])}."
+        return Verdict(False, reason + mirrored, inverted, edges=edges)
+    vertices = overlapping_stars(triangles, has_twin, positions)
+    if len(vertices):
+        reason = (
+            f"The triangles round {len(vertices)} vertices overlap: they wind more than once, "
+            f"first round vertex {vertices[0]} (from 0)."
+        )
+        return Verdict(False, reason + mirrored, inverted, vertices=vertices)
+    reason = "Every triangle is upright and every star of a vertex winds once." + mirrored
+    return Verdict(True, reason, inverted)
+
+
+def global_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
+    """Whether the map is one-to-one: positively oriented, and one-to-one on the boundary (Theorem 5.1).
+
+    Boundary edges are compared exactly, over all loops and components; components must not cover each other either.
+    For tetrahedra the verdict is None unless the map is not even locally injective.
+
+    Parameters
+    ----------
+    positions : (n, d) float64
+    """
+    local = local_injectivity(mesh, positions)
+    if local.holds is False:
+        return local
+    if mesh.dimension == 3:
+        return Verdict(None, "Global injectivity of volumes is not tested.", local.inverted)
+    triangles = _counter_clockwise(mesh, positions)
+    _, has_twin = match_sides(triangles, mesh.vertex_count)
+    triangle, corner = np.nonzero(~has_twin)
+    edges = np.stack([triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]], axis=1)
+    component = mesh.topology.components[triangle]
+    pairs = _meeting_edges(edges, positions)
+    if len(pairs):
+        offenders = edges[pairs]
+        reason = (
+            f"The boundary meets itself in {len(pairs)} pairs of edges, "
+            f"first {_edge(offenders[0, 0])} and {_edge(offenders[0, 1])}."
+        )
+        return Verdict(False, reason, local.inverted, boundary_pairs=offenders)
+    covered = _covered_component(component, edges, positions)
+    if covered >= 0:
+        first = int(np.flatnonzero(mesh.topology.components == covered)[0])
+        reason = f"The component of triangle {first} (from 0) lies on top of another component."
+        return Verdict(False, reason, local.inverted)
+    mirrored = " The map is mirrored as a whole." if len(local.inverted) else ""
+    return Verdict(True, "Every triangle is upright and the boundary is one-to-one." + mirrored, local.inverted)
+
+
+def _unfit(mesh: Mesh, positions: Floats) -> str:
+    if positions.shape != (mesh.vertex_count, mesh.dimension):
+        return f"The map has shape {positions.shape}; ({mesh.vertex_count}, {mesh.dimension}) is needed."
+    if not np.isfinite(positions).all():
+        row = int(np.flatnonzero(~np.isfinite(positions).all(axis=1))[0])
+        return f"The position of vertex {row} (from 0) is not finite."
+    return ""
+
+
+def _turned_sentence(mesh: Mesh, inverted: Integers, degenerate: Integers) -> str:
+    noun = "triangles" if mesh.dimension == 2 else "tetrahedra"
+    parts = [
+        f"{len(found)} {noun} are {word}, first number {found[0]} (from 0)"
+        for found, word in ((inverted, "inverted"), (degenerate, "degenerate"))
+        if len(found)
+    ]
+    return " and ".join(parts) + "."
+
+
+def _edge(ends: Integers) -> str:
+    return f"edge {int(ends[0])}-{int(ends[1])}"
+
+
+def _signs(positions: Floats, simplices: Integers) -> Integers:
+    corners = [np.ascontiguousarray(positions[simplices[:, i]]) for i in range(simplices.shape[1])]
+    return orientation(*corners) if len(corners) == 3 else orientation_3d(*corners)
+
+
+def _counter_clockwise(mesh: Mesh, positions: Floats) -> Integers:
+    """Triangles (m, 3) with their corners counter-clockwise in the map."""
+    clockwise = _signs(positions, mesh.simplices) < 0
+    return np.where(clockwise[:, None], mesh.simplices[:, ::-1], mesh.simplices)
+
+
+def match_sides(triangles: Integers, vertex_count: int) -> tuple[Integers, Booleans]:
+    """Sides that two triangles run along in the same direction, and whether each side has a triangle across it.
+
+    Returns
+    -------
+    (k, 2) int64, (m, 3) bool     side i of a triangle goes from its corner i to the next
+    """
+    tails, heads = triangles, np.roll(triangles, -1, axis=1)
+    keys, reverse = tails * vertex_count + heads, heads * vertex_count + tails
+    ordered = np.sort(keys, axis=None)
+    doubled = np.unique(ordered[1:][ordered[1:] == ordered[:-1]])
+    place = np.minimum(np.searchsorted(ordered, reverse), len(ordered) - 1)
+    return np.stack([doubled // vertex_count, doubled % vertex_count], axis=1), ordered[place] == reverse
+
+
+def _meeting_edges(edges: Integers, positions: Floats) -> Integers:
+    """Pairs (p, 2) of boundary edges that meet elsewhere than in a vertex of both."""
+    pairs = box_pairs(positions[edges[:, 0]], positions[edges[:, 1]])
+    first, second = edges[pairs[:, 0]], edges[pairs[:, 1]]
+    shares = (first[:, :, None] == second[:, None, :]).any(axis=(1, 2))
+    apart = np.flatnonzero(~shares)
+    meets = np.zeros(len(pairs), dtype=bool)
+    meets[apart] = segments_meet(*(positions[part[apart, end]] for part in (first, second) for end in (0, 1)))
+    # edges of one vertex meet elsewhere too when they lie in the same direction from it
+    for i in (0, 1):
+        for j in (0, 1):
+            rows = np.flatnonzero(shares & (first[:, i] == second[:, j]))
+            tips = positions[first[rows, 1 - i]], positions[second[rows, 1 - j]]
+            meets[rows] |= rays_coincide(positions[first[rows, i]], *tips)
+    return pairs[meets]
+
+
+def _covered_component(belongs: Integers, edges: Integers, positions: Floats) -> int:
+    """Number of a component that has a boundary vertex inside the image of another component; -1 where there is none.
+
+    The boundaries do not meet but in vertices of both, so one point of its own tells for the whole component.
+    `belongs` (b,) is the component of each boundary edge.
+    """
+    tails, heads = positions[edges[:, 0]], positions[edges[:, 1]]
+    components = np.unique(belongs)
+    for component in components if len(components) > 1 else ():
+        own, others = np.flatnonzero(belongs == component), belongs != component
+        alone = own[~np.isin(edges[own, 0], edges[others])]
+        point = tails[alone[:1]] if len(alone) else 0.5 * (tails[own[:1]] + heads[own[:1]])
+        upward = (tails[:, 1] <= point[:, 1]) & (point[:, 1] < heads[:, 1]) & others
+        downward = (heads[:, 1] <= point[:, 1]) & (point[:, 1] < tails[:, 1]) & others
+        winding = np.count_nonzero(orientation(tails[upward], heads[upward], point) > 0)
+        winding -= np.count_nonzero(orientation(tails[downward], heads[downward], point) < 0)
+        if winding:
+            return int(component)
+    return -1
