@@ -1,0 +1,33 @@
+"""The SLIM of libigl, as an outside reference for energies and times."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import igl
+import numpy as np
+
+from workbench.core.mesh import Mesh
+
+
+def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
+    """A function `iterations -> positions (n, 2)` that goes on from where it was; symmetric Dirichlet, free boundary.
+
+    Without anchors libigl's matrix is singular by a translation; it regularises that by itself.
+    """
+    points = np.zeros((mesh.vertex_count, 3))
+    points[:, : mesh.vertices.shape[1]] = mesh.vertices
+    data = igl.slim_precompute(
+        np.asfortranarray(points),
+        np.asfortranarray(mesh.simplices.astype(np.int32)),
+        np.asfortranarray(start),
+        igl.MappingEnergyType.SYMMETRIC_DIRICHLET,
+        np.empty(0, dtype=np.int32),
+        np.asfortranarray(np.empty((0, 2))),
+        0.0,
+    )
+
+    def advance(iterations: int) -> np.ndarray:
+        return np.ascontiguousarray(igl.slim_solve(data, iterations)[:, :2])
+
+    return advance
