@@ -60,9 +60,7 @@ _RECIPES: dict[str, _Recipe] = {
         2500,
         figure.ANCHOR_PLACES,
     ),
-    "bar": _Recipe(
-        "Bar", "plane", "A rectangle, four times as long as high, to bend and twist.", grids.bar, 2000, _BAR_ENDS
-    ),
+    "bar": _Recipe("Bar", "plane", "A rectangle, four times as long as high, to bend and twist.", grids.bar, 2000, _BAR_ENDS),
     "annulus": _Recipe(
         "Annulus",
         "plane",
@@ -104,9 +102,7 @@ _RECIPES: dict[str, _Recipe] = {
         4000,
         fixes=("cut",),
     ),
-    "bar-3d": _Recipe(
-        "Solid bar", "volume", "A bar of tetrahedra, to bend and twist.", grids.solid_bar, 3000, _SOLID_ENDS
-    ),
+    "bar-3d": _Recipe("Solid bar", "volume", "A bar of tetrahedra, to bend and twist.", grids.solid_bar, 3000, _SOLID_ENDS),
     "ball": _Recipe("Ball", "volume", "A ball of tetrahedra.", closed.ball, 4320, ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0))),
 }
 

@@ -13,6 +13,7 @@ Implicit = Callable[[Floats], Floats]
 """(k, 3) points -> (k,) values, negative inside, of slope about one near the surface."""
 
 _SMOOTHING_ROUNDS = 25
+_BLOCK = 8
 
 
 def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: float) -> tuple[Floats, Integers]:
@@ -24,9 +25,7 @@ def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: f
     """
     axes = [np.arange(low[axis], high[axis] + spacing, spacing) for axis in (0, 1)]
     axes.append(np.arange(-0.5 * spacing, high[2] + spacing, spacing))
-    grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
-    value = implicit(grid.reshape(-1, 3)).reshape(grid.shape[:3])
-    inside = _without_ambiguous_faces(value < 0)
+    inside = _without_ambiguous_faces(_sampled_inside(implicit, axes))
     cells = np.array(inside.shape) - 1
     corner_sum = np.zeros(cells, dtype=np.int64)
     for i, j, k in product((0, 1), repeat=3):
@@ -62,6 +61,25 @@ def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: f
     return vertices, _split(vertices, quad)
 
 
+def _sampled_inside(implicit: Implicit, axes: list[Floats]) -> Booleans:
+    """Which grid points are inside; blocks of the grid that the surface is far from are decided by their middle."""
+    inside = np.zeros([len(axis) for axis in axes], dtype=bool)
+    blocks = [np.arange(0, len(axis), _BLOCK) for axis in axes]
+    spacing = axes[0][1] - axes[0][0]
+    firsts = np.stack(np.meshgrid(*blocks, indexing="ij"), axis=-1).reshape(-1, 3)
+    origin = np.array([axis[0] for axis in axes])
+    value = implicit(origin + spacing * (firsts + 0.5 * (_BLOCK - 1)))
+    near = np.abs(value) < spacing * _BLOCK  # a little more than half the diagonal of a block
+    for i, j, k in firsts[~near & (value < 0)]:
+        inside[i : i + _BLOCK, j : j + _BLOCK, k : k + _BLOCK] = True
+    offsets = np.stack(np.meshgrid(*[np.arange(_BLOCK)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+    for some in np.array_split(firsts[near], 1 + near.sum() // 200):
+        points = (some[:, None] + offsets).reshape(-1, 3)
+        points = points[(points < inside.shape).all(axis=1)]
+        inside[tuple(points.T)] = implicit(origin + spacing * points) < 0
+    return inside
+
+
 def _without_ambiguous_faces(inside: Booleans) -> Booleans:
     """Grid points filled in until no grid face has its inner points on one diagonal only: two sheets would touch."""
     for _ in range(10):
@@ -88,11 +106,12 @@ def _relaxed(implicit: Implicit, vertices: Floats, quads: Integers, spacing: flo
     rim_edges = edges[rim[edges].all(axis=1)]
     rim_count = np.maximum(np.bincount(rim_edges.ravel(), minlength=len(vertices)), 1)
     vertices = _project(implicit, vertices, rim)
-    for _ in range(_SMOOTHING_ROUNDS):
+    for step in range(_SMOOTHING_ROUNDS):
         mean = _neighbour_sum(vertices, edges) / count[:, None]
         rim_mean = _neighbour_sum(vertices, rim_edges) / rim_count[:, None]
         vertices = 0.4 * vertices + 0.6 * np.where(rim[:, None], rim_mean, mean)
-        vertices = _project(implicit, vertices, rim)
+        if step % 3 == 0:
+            vertices = _project(implicit, vertices, rim)
     return vertices
 
 
