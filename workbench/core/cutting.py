@@ -11,7 +11,7 @@ from workbench.core.facets import FacetTable, corner_classes, facet_table, simpl
 from workbench.core.geometry_library import cut_to_disk
 from workbench.core.mesh import Mesh
 
-BRANCH_RATIO = 0.5
+BRANCH_RATIO = 0.25
 """A closed sphere is cut further towards vertices that are farther from the cut than this part of its first path."""
 
 MOST_BRANCHES = 8

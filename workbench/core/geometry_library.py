@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from workbench.core.arrays import Integers
 from workbench.core.errors import MeshError
+from workbench.core.facets import facet_table
 
 
 def cut_to_disk(triangles: ArrayLike) -> Integers:
@@ -25,8 +26,7 @@ def cut_to_disk(triangles: ArrayLike) -> Integers:
     faces = checked_triangles(triangles)
     if (faces == np.roll(faces, 1, axis=1)).any():
         raise MeshError("A triangle names the same vertex twice; mend the mesh before it is cut.")
-    ends = np.sort(faces[:, [1, 2, 2, 0, 0, 1]].reshape(-1, 2), axis=1)
-    if np.unique(ends, axis=0, return_counts=True)[1].max() > 2:
+    if facet_table(faces).counts.max() > 2:
         raise MeshError("An edge has more than two triangles; mend the mesh before it is cut.")
     import igl
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
@@ -19,16 +19,46 @@ from workbench.io.text import decoded
 
 
 @dataclass
-class _Statements:
-    """The lines of an OBJ file that matter, still as words; numbers of lines are from 1."""
+class _Lines:
+    """Lines of one keyword, and their numbers from 1."""
 
-    vertices: list[list[str]] = field(default_factory=list)
-    vertex_lines: list[int] = field(default_factory=list)
-    textures: list[list[str]] = field(default_factory=list)
-    texture_lines: list[int] = field(default_factory=list)
-    faces: list[list[str]] = field(default_factory=list)
-    face_lines: list[int] = field(default_factory=list)
-    counts_before: list[tuple[int, int]] = field(default_factory=list)
+    keyword: str
+    lines: list[str] = field(default_factory=list)
+    numbers: list[int] = field(default_factory=list)
+
+    def add(self, line: str, number: int) -> None:
+        self.lines.append(line)
+        self.numbers.append(number)
+
+    def words(self) -> tuple[list[str], Integers]:
+        """All words but the keywords, and how many stand on each line, (k,) int64."""
+        flat = " ".join(self.lines).split()
+        at = [i for i, word in enumerate(flat) if word == self.keyword]
+        if len(at) != len(self.lines):  # the keyword stands among the arguments of a line as well
+            rows = [line.split()[1:] for line in self.lines]
+            return list(chain.from_iterable(rows)), np.array([len(row) for row in rows], dtype=np.int64)
+        sizes = np.diff(at, append=len(flat)) - 1
+        return [word for word in flat if word != self.keyword], sizes.astype(np.int64)
+
+    def blame(self, path: Path, parse: Callable[[str], object], what: str, words: slice = slice(None)) -> NoReturn:
+        """Raises `MeshError` for the first word that cannot be parsed."""
+        for line, number in zip(self.lines, self.numbers, strict=True):
+            for word in line.split()[1:][words]:
+                try:
+                    parse(word)
+                except (ValueError, OverflowError):
+                    raise MeshError(f"{path}, line {number}: {word[:40]!r} {what}; mend the line.") from None
+        raise MeshError(f"{path}: the file cannot be understood.")
+
+
+@dataclass
+class _Statements:
+    """The lines of an OBJ file that matter; `counts_before` are the vertices and texture coordinates before a face."""
+
+    vertices: _Lines = field(default_factory=lambda: _Lines("v"))
+    textures: _Lines = field(default_factory=lambda: _Lines("vt"))
+    faces: _Lines = field(default_factory=lambda: _Lines("f"))
+    counts_before: list[int] = field(default_factory=list)
 
 
 def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tuple[str, ...]]:
@@ -38,16 +68,16 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
     out. Texture coordinates are kept where every corner has some. Raises `MeshError` with the line that is wrong.
     """
     found = _statements(decoded(path, data))
-    if not found.vertices:
+    if not found.vertices.lines:
         raise MeshError(f"{path}: there is no vertex (a line 'v x y z') in it; it is not an OBJ file, or an empty one.")
-    if not found.faces:
-        raise MeshError(f"{path}: it has {len(found.vertices)} vertices and no face ('f a b c'); is it cut short?")
+    if not found.faces.lines:
+        raise MeshError(f"{path}: it has {len(found.vertices.lines)} vertices and no face ('f a b c'); is it cut short?")
     vertices = _vertex_table(path, found)
-    sizes = np.array([len(face) for face in found.faces], dtype=np.int64)
+    words, sizes = found.faces.words()
     if sizes.min() < 3:
-        line = found.face_lines[int(sizes.argmin())]
+        line = found.faces.numbers[int(sizes.argmin())]
         raise MeshError(f"{path}, line {line}: a face needs three corners or more; the file is damaged or cut short.")
-    corners, texture_corners = _corner_tables(path, found, sizes)
+    corners, texture_corners = _corner_tables(path, found, words, sizes)
     if tets:
         return _tetrahedra(path, vertices, corners, sizes)
 
@@ -63,26 +93,24 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
 
 def _statements(text: str) -> _Statements:
     found = _Statements()
+    vertices, textures, faces = found.vertices, found.textures, found.faces
     lines = text.split("\n")
     if "\\\n" in text:
         lines = _joined(lines)
     for number, line in enumerate(lines, start=1):
         if "#" in line:
             line = line.partition("#")[0]
-        words = line.split()
-        if not words:
-            continue
-        keyword = words[0]
-        if keyword == "v":
-            found.vertices.append(words)
-            found.vertex_lines.append(number)
-        elif keyword == "f" or keyword == "fo":
-            found.faces.append(words[1:])
-            found.face_lines.append(number)
-            found.counts_before.append((len(found.vertices), len(found.textures)))
-        elif keyword == "vt":
-            found.textures.append(words)
-            found.texture_lines.append(number)
+        head = line[:2]
+        if head not in ("v ", "f ", "vt"):
+            line = line.strip()
+            head = (line.replace("\t", " ") + " ")[:2]
+        if head == "v ":
+            vertices.add(line, number)
+        elif head == "f ":
+            faces.add(line, number)
+            found.counts_before += (len(vertices.lines), len(textures.lines))
+        elif head == "vt" and line.split(None, 1)[0] == "vt":
+            textures.add(line, number)
     return found
 
 
@@ -102,54 +130,68 @@ def _joined(lines: list[str]) -> list[str]:
 
 
 def _vertex_table(path: Path, found: _Statements) -> Floats:
-    widths = [len(words) for words in found.vertices]
-    columns = 3 if max(widths) > 3 else 2
-    if min(widths) <= columns:
-        line = found.vertex_lines[next(i for i, width in enumerate(widths) if width <= columns)]
+    words, widths = found.vertices.words()
+    columns = 3 if widths.max() >= 3 else 2
+    if widths.min() < columns:
+        line = found.vertices.numbers[int(widths.argmin())]
         raise MeshError(f"{path}, line {line}: a vertex needs {columns} coordinates; the file is damaged or cut short.")
-    vertices = _numbers(path, [words[1 : columns + 1] for words in found.vertices], found.vertex_lines)
+    vertices = _numbers(path, found.vertices, words, widths, columns)
     bad = ~np.isfinite(vertices).all(axis=1)
     if bad.any():
-        line = found.vertex_lines[int(bad.argmax())]
+        line = found.vertices.numbers[int(bad.argmax())]
         raise MeshError(f"{path}, line {line}: a coordinate is not a finite number; mend it in the file.")
     return vertices
 
 
-def _numbers(path: Path, rows: list[list[str]], lines: list[int]) -> Floats:
+def _numbers(path: Path, lines: _Lines, words: list[str], widths: Integers, columns: int) -> Floats:
+    """The first `columns` numbers of each line, which has at least as many words."""
+    width = int(widths[0])
+    if not (widths == width).all():
+        starts = (np.cumsum(widths) - widths).tolist()
+        words = [word for start in starts for word in words[start : start + columns]]
+        width = columns
     try:
-        values = np.array(list(map(float, chain.from_iterable(rows))))
+        return np.array([list(map(float, words[column::width])) for column in range(columns)]).T
     except ValueError:
-        _blame(path, rows, lines, float, "is not a number")
-    return values.reshape(len(rows), -1)
+        lines.blame(path, float, "is not a number", slice(columns))
 
 
-def _corner_tables(path: Path, found: _Statements, sizes: Integers) -> tuple[Integers, Integers]:
+def _corner_tables(path: Path, found: _Statements, words: list[str], sizes: Integers) -> tuple[Integers, Integers]:
     """Vertex and texture coordinate of each corner of each face, from 0, both (c,) int64; -1 for no texture."""
-    tokens = list(chain.from_iterable(found.faces))
     try:
-        if any("/" in token for token in tokens):
-            parts = [token.split("/") for token in tokens]
-            vertex = np.array([int(part[0]) for part in parts], dtype=np.int64)
-            texture = np.array([int(part[1]) if len(part) > 1 and part[1] else 0 for part in parts], dtype=np.int64)
-        else:
-            vertex = np.array(list(map(int, tokens)), dtype=np.int64)
-            texture = np.zeros(len(tokens), dtype=np.int64)
+        vertex, texture = _corner_numbers(words)
     except (ValueError, OverflowError):
-        _blame(path, found.faces, found.face_lines, _corner, "is not a corner of a face")
-    counts = np.repeat(np.array(found.counts_before, dtype=np.int64), sizes, axis=0)
-    lines = np.repeat(np.array(found.face_lines, dtype=np.int64), sizes)
-    vertex = _from_zero(path, vertex, counts[:, 0], len(found.vertices), lines, "vertex", "vertices")
+        found.faces.blame(path, lambda word: _corner_numbers([word]), "is not a corner of a face")
+    counts = np.repeat(np.array(found.counts_before, dtype=np.int64).reshape(-1, 2), sizes, axis=0)
+    lines = np.repeat(np.array(found.faces.numbers, dtype=np.int64), sizes)
+    vertex = _from_zero(path, vertex, counts[:, 0], len(found.vertices.lines), lines, "vertex", "vertices")
     absent = texture == 0
+    known = len(found.textures.lines)
     texture = _from_zero(
-        path, np.where(absent, 1, texture), counts[:, 1], max(len(found.textures), int(absent.any())), lines,
+        path, np.where(absent, 1, texture), counts[:, 1], max(known, int(absent.any())), lines,
         "texture coordinate", "texture coordinates",
     )  # fmt: skip
     return vertex, np.where(absent, -1, texture)
 
 
-def _corner(token: str) -> None:
-    part = token.split("/")
-    np.array([int(part[0]), int(part[1]) if len(part) > 1 and part[1] else 0], dtype=np.int64)
+def _corner_numbers(words: list[str]) -> tuple[Integers, Integers]:
+    """Numbers of vertex and texture coordinate of corners `v`, `v/t`, `v//n` or `v/t/n`; 0 for no texture."""
+    slashes = words[0].count("/")
+    if slashes == 0:
+        numbers = np.array(list(map(int, words)), dtype=np.int64) if "/" not in "".join(words) else None
+    else:  # the same number of slashes in every word: one pass over one text
+        is_even = slashes <= 2 and all(word.count("/") == slashes for word in words)
+        text = "\n".join(words).replace("//", "/0/").replace("/\n", "/0\n") if is_even else ""
+        if text.endswith("/"):
+            text += "0"
+        numbers = np.array(list(map(int, text.replace("/", " ").split())), dtype=np.int64) if is_even else None
+    if numbers is not None and numbers.size == (slashes + 1) * len(words):
+        numbers = numbers.reshape(len(words), slashes + 1)
+        return numbers[:, 0], numbers[:, 1] if slashes else np.zeros(len(words), dtype=np.int64)
+    parts = [word.split("/") for word in words]
+    vertex = np.array([int(part[0]) for part in parts], dtype=np.int64)
+    texture = [int(part[1]) if len(part) > 1 and part[1] else 0 for part in parts]
+    return vertex, np.array(texture, dtype=np.int64)
 
 
 def _from_zero(path: Path, index: Integers, before: Integers, count: int, lines: Integers, noun: str, plural: str) -> Integers:
@@ -168,13 +210,16 @@ def _from_zero(path: Path, index: Integers, before: Integers, count: int, lines:
 def _texture(
     path: Path, found: _Statements, corners: Integers, triangles_of: Integers, notes: list[str]
 ) -> TextureCoordinates | None:
-    if not found.textures or (corners < 0).all():
+    if not found.textures.lines or (corners < 0).all():
         return None
     if (corners < 0).any():
         notes.append("Some corners have no texture coordinates, so those of the others were left out.")
         return None
-    rows = [(words[1:3] + ["0", "0"])[:2] for words in found.textures]
-    coordinates = _numbers(path, rows, found.texture_lines)
+    words, widths = found.textures.words()
+    if widths.min() < 2:  # one number alone: the other is zero
+        rows = [(line.split()[1:3] + ["0", "0"])[:2] for line in found.textures.lines]
+        words, widths = list(chain.from_iterable(rows)), np.full(len(rows), 2, dtype=np.int64)
+    coordinates = _numbers(path, found.textures, words, widths, 2)
     if not np.isfinite(coordinates).all():
         notes.append("Some texture coordinates are not finite numbers, so all were left out.")
         return None
@@ -189,16 +234,3 @@ def _tetrahedra(path: Path, vertices: Floats, corners: Integers, sizes: Integers
     others = int((~is_tetrahedron).sum())
     notes = (f"{others} faces that do not have four corners were left out.",) if others else ()
     return mesh_of_file(path, vertices, corners[starts[:, None] + np.arange(4)]), notes
-
-
-def _blame(
-    path: Path, rows: Sequence[Sequence[str]], lines: Sequence[int], parse: Callable[[str], object], what: str
-) -> NoReturn:
-    """Raises `MeshError` for the first word that cannot be parsed."""
-    for row, line in zip(rows, lines, strict=True):
-        for word in row:
-            try:
-                parse(word)
-            except (ValueError, OverflowError):
-                raise MeshError(f"{path}, line {line}: {word[:40]!r} {what}; mend the line.") from None
-    raise MeshError(f"{path}: the file cannot be understood.")
