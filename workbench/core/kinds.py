@@ -49,7 +49,7 @@ def check_for_kind(mesh: Mesh, kind: Kind) -> None:
     fault = _first_fault(mesh, kind)
     if fault:
         fixes = helpful_fixes(mesh, kind)
-        raise MeshError(f"{fault} {_advice(fixes)}", fixes=fixes)
+        raise MeshError(f"{fault}; {_advice(fixes)}.", fixes=fixes)
     if len(topology.degenerate):
         without = "area" if mesh.dimension == 2 else "volume"
         raise MeshError(
@@ -96,16 +96,16 @@ def helpful_fixes(mesh: Mesh, kind: Kind) -> tuple[str, ...]:
 
 def _advice(fixes: tuple[str, ...]) -> str:
     if not fixes:
-        return "None of the fixes offered here helps: mend it in a mesh editor."
+        return "none of the fixes offered here helps, so mend it in a mesh editor"
     if fixes[-2:] == ("seams", "cut"):
         along_seams = ",".join(fixes[:-1])
         other = ",".join((*fixes[:-2], "cut"))
-        return f"Apply --fix {along_seams} (cut along the texture seams) or --fix {other}."
-    return f"Apply --fix {','.join(fixes)}."
+        return f"apply --fix {along_seams} (cut along the texture seams) or --fix {other}"
+    return f"apply --fix {','.join(fixes)}"
 
 
 def _first_fault(mesh: Mesh, kind: Kind) -> str:
-    """A sentence on the first thing in the way that a fix might mend; empty where there is none."""
+    """A clause on the first thing in the way that a fix might mend; empty where there is none."""
     checks = [_unreferenced_fault]
     if kind == "parameterize":
         checks += [_nonmanifold_fault, _component_fault, _orientation_fault, _disc_fault]
@@ -120,7 +120,7 @@ def _unreferenced_fault(mesh: Mesh) -> str:
     verb = "is" if count == 1 else "are"
     return (
         f"{count_of(count, 'vertex')} {verb} in no {noun} ({first_few(mesh.topology.unreferenced)}, from 0): "
-        f"the file may be cut short, or the points are left over."
+        f"the file may be cut short, or the points are left over"
     )
 
 
@@ -132,26 +132,26 @@ def _nonmanifold_fault(mesh: Mesh) -> str:
         others = f", and so have {more} others" if more > 1 else ", and so has 1 other" if more else ""
         return (
             f"The edge between vertices {tail} and {head} (from 0) has more than two triangles{others}: "
-            f"only a manifold surface can be flattened."
+            f"only a manifold surface can be flattened"
         )
     if len(topology.nonmanifold_vertices):
         return (
             f"At vertex {first_few(topology.nonmanifold_vertices)} (from 0) several fans of triangles touch: "
-            f"only a manifold surface can be flattened."
+            f"only a manifold surface can be flattened"
         )
     return ""
 
 
 def _component_fault(mesh: Mesh) -> str:
     count = mesh.topology.component_count
-    return f"The surface has {count} components, and a parameterization takes one." if count > 1 else ""
+    return f"The surface has {count} components, and a parameterization takes one" if count > 1 else ""
 
 
 def _orientation_fault(mesh: Mesh) -> str:
     if not mesh.topology.is_orientable:
-        return "The surface is one-sided (not orientable), and a parameterization takes a disc."
+        return "The surface is one-sided (not orientable), and a parameterization takes a disc"
     if not mesh.topology.is_consistently_oriented:
-        return "The triangles do not agree on an orientation: some neighbours run against each other."
+        return "The triangles do not agree on an orientation: some neighbours run against each other"
     return ""
 
 
@@ -161,9 +161,9 @@ def _disc_fault(mesh: Mesh) -> str:
         return ""
     loops = len(topology.boundary_loops)
     if not loops:
-        return f"The surface is closed (genus {topology.genus}), and a parameterization takes a disc."
+        return f"The surface is closed (genus {topology.genus}), and a parameterization takes a disc"
     handles = f"genus {topology.genus} and " if topology.genus else ""
-    return f"The surface has {handles}{count_of(loops, 'boundary loop')}, and a parameterization takes a disc."
+    return f"The surface has {handles}{count_of(loops, 'boundary loop')}, and a parameterization takes a disc"
 
 
 def _check_dimension(mesh: Mesh, kind: Kind) -> None:
