@@ -60,7 +60,7 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="FIX,...",
-        help=f"mend the mesh first, in this order: {', '.join(FIXES)}",
+        help=f"mend the mesh first, in the order given: {', '.join(FIXES)}",
     )
     parser.add_argument("--tets", action="store_true", help="read faces of four corners as tetrahedra")
 
