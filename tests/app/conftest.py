@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import shiboken6
 from pytestqt.qtbot import QtBot
 
 pytest.importorskip("PySide6.QtWidgets", exc_type=ImportError)
@@ -21,6 +22,7 @@ from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.theme import ThemeSwitch
 from workbench.app.views.mesh_view import MeshView
+from workbench.session.session import Session
 
 WindowMaker = Callable[..., MainWindow]
 
@@ -33,47 +35,79 @@ def leaked_widgets() -> list[QWidget]:
     return [w for w in QApplication.topLevelWidgets() if w.parent() is None and not w.objectName().startswith("qt_")]
 
 
+def _address(widget: QWidget) -> int:
+    """Of Qt's own object: Python makes a new wrapper each time it asks."""
+    return int(shiboken6.getCppPointer(widget)[0])
+
+
 @pytest.fixture(autouse=True)
 def nothing_leaks(qapp: QApplication) -> Iterator[None]:
     """Fail where a test leaves a top-level widget: it would crash a later test, far from its cause."""
-    before = {id(w) for w in leaked_widgets()}
+    before = {_address(w) for w in leaked_widgets()}
     yield
-    leaked = [w for w in leaked_widgets() if id(w) not in before]
+    leaked = [w for w in leaked_widgets() if _address(w) not in before]
     assert not leaked, f"top-level widgets were left behind: {leaked}"
 
 
-@pytest.fixture
-def make_window(qtbot: QtBot, tmp_path: Path) -> Iterator[WindowMaker]:
-    """Windows with a settings file of the test's own; closed and deleted at the end."""
-    windows: list[MainWindow] = []
+def new_window(settings: Path, make_worker: WorkerMaker, theme: str) -> MainWindow:
+    """A window that is shown and active, with nothing open."""
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyle("Fusion")
+    window = MainWindow(ThemeSwitch(application, theme), Settings(settings), make_worker)
+    window.resize(1200, 800)
+    window.show()
+    window.activateWindow()  # keys go to the active window only
+    QTest.qWaitForWindowActive(window)
+    return window
 
-    def make(make_worker: WorkerMaker = FakeWorker, theme: str = "light", source: str = "grid") -> MainWindow:
-        application = QApplication.instance()
-        assert isinstance(application, QApplication)
-        application.setStyle("Fusion")
-        window = MainWindow(ThemeSwitch(application, theme), Settings(tmp_path / "window.ini"), make_worker)
-        windows.append(window)
-        window.resize(1200, 800)
-        window.show()
-        window.activateWindow()  # keys go to the active window only
-        QTest.qWaitForWindowActive(window)
-        if source:
-            window.start(source)
-        return window
 
-    yield make
-    for window in windows:
-        window.close()
-        window.deleteLater()
+def end_window(window: MainWindow) -> None:
+    window.close()
+    window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 @pytest.fixture
-def window(make_window: WindowMaker, qtbot: QtBot) -> MainWindow:
-    """A window with the grid of the fake engine in it."""
-    made = make_window()
-    qtbot.waitUntil(lambda: made.document.positions is not None, timeout=10_000)
-    return made
+def make_window(tmp_path: Path) -> Iterator[WindowMaker]:
+    """Windows with a settings file of the test's own; closed and deleted at the end."""
+    windows: list[MainWindow] = []
+
+    def make(make_worker: WorkerMaker = FakeWorker, theme: str = "light", source: str = "grid") -> MainWindow:
+        window = new_window(tmp_path / "window.ini", make_worker, theme)
+        windows.append(window)
+        window.start(source)
+        return window
+
+    yield make
+    for window in windows:
+        end_window(window)
+
+
+@pytest.fixture(scope="module")
+def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:
+    """One window for the tests of a module: making one takes a second without a graphics card."""
+    window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
+    window.bridge.start()
+    yield window
+    end_window(window)
+
+
+@pytest.fixture
+def window(kept_window: MainWindow, qtbot: QtBot) -> MainWindow:
+    """A window with the grid of the fake engine in it, freshly opened."""
+    kept_window.activateWindow()
+    QTest.qWaitForWindowActive(kept_window)
+    worker = kept_window.bridge._worker
+    worker.commands.clear()
+    kept_window.document.choose(**{f: getattr(Session(), f) for f in ("distortion", "solver", "fixed_boundary", "match_area")})
+    kept_window.open("grid")
+    qtbot.waitUntil(lambda: kept_window.document.positions is not None and not kept_window.document.opening_source)
+    QTest.qWait(30)
+    kept_window.error_bar.dismiss()
+    kept_window.commands.fit()
+    worker.commands.clear()
+    return kept_window
 
 
 def pixel_of(view: MeshView, vertex: int) -> QPoint:

@@ -14,6 +14,9 @@ LEAST_REST = 0.016
 COMING_TO_REST = 60
 """Milliseconds without a new map after which panels that are still behind are drawn on their own."""
 
+BETWEEN = 15
+"""Milliseconds between panels that catch up."""
+
 
 @dataclass
 class Panel:
@@ -38,7 +41,6 @@ class PanelTurns(QObject):
         self._last = 0.0
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
-        self._rest.setInterval(COMING_TO_REST)
         self._rest.timeout.connect(self._catch_up)
 
     def add(self, widget: QWidget, draw: Callable[[], None]) -> None:
@@ -50,13 +52,13 @@ class PanelTurns(QObject):
             panel.is_stale = True
         if time.perf_counter() - self._last >= LEAST_REST:
             self._turn()
-        self._rest.start()
+        self._rest.start(COMING_TO_REST)
 
     def all_stale(self) -> None:
         """Something but the map changed: draw all again when there is time."""
         for panel in self.panels:
             panel.is_stale = True
-        self._rest.start()
+        self._rest.start(COMING_TO_REST)
 
     def draw_all(self) -> None:
         """Bring everything up to date now."""
@@ -70,7 +72,7 @@ class PanelTurns(QObject):
     def _catch_up(self) -> None:
         self._turn()
         if any(panel.is_stale and panel.widget.isVisible() for panel in self.panels):
-            self._rest.start()
+            self._rest.start(BETWEEN)
 
     def _turn(self) -> None:
         count = len(self.panels)
