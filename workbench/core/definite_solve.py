@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from workbench.core.arrays import Floats
+from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.errors import WorkbenchError
 
 _REFINEMENTS = 2
@@ -35,7 +36,7 @@ class DefiniteFactor:
         scaling = sparse.diags(self._scale)
         self._matrix = sparse.csc_matrix(scaling @ matrix @ scaling)
         try:
-            import cvxopt.cholmod
+            cvxopt = load_cvxopt()
         except ImportError:
             self._factorise_superlu()
         else:

@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from workbench.core.arrays import Floats
+from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.pattern import HessianPattern
 
 
@@ -41,11 +42,7 @@ class Cholmod(LinearSolver):
     name = "cholmod"
 
     def __init__(self, pattern: HessianPattern) -> None:
-        _name_processor_for_blas()
-        import cvxopt
-        import cvxopt.cholmod
-
-        self._cvxopt = cvxopt
+        self._cvxopt = cvxopt = load_cvxopt()
         self._cholmod = cvxopt.cholmod
         size, count = pattern.size, pattern.entry_count
         self._values = cvxopt.matrix(0.0, (count, 1))
@@ -73,24 +70,6 @@ class Cholmod(LinearSolver):
         b = self._cvxopt.matrix(np.asfortranarray(columns))
         self._cholmod.solve(self._factor, b)
         return np.array(b).reshape(rhs.shape)
-
-
-def _name_processor_for_blas() -> None:
-    """The OpenBLAS in cvxopt's wheels takes processors newer than itself for one without AVX: half the speed.
-
-    It reads the variable when it is loaded, so this has to come before the first import of cvxopt.
-    """
-    if _has_avx2():
-        os.environ.setdefault("OPENBLAS_CORETYPE", "Haswell")
-
-
-def _has_avx2() -> bool:
-    try:
-        with open("/proc/cpuinfo", encoding="ascii", errors="replace") as file:
-            flags = next((line for line in file if line.startswith("flags")), "")
-    except OSError:
-        return False  # not Linux: leave OpenBLAS its own choice
-    return {"avx2", "fma"} <= set(flags.split())
 
 
 class SuperLU(LinearSolver):

@@ -10,6 +10,7 @@ import numpy as np
 from scipy import sparse
 
 from workbench.core.arrays import Floats, Integers
+from workbench.core.cholmod_library import load_cvxopt
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,9 +105,7 @@ def elimination_order(graph: sparse.csr_matrix) -> Integers:
 
 def _minimum_degree_order(graph: sparse.csr_matrix) -> Integers:
     try:
-        import cvxopt
-        import cvxopt.amd
-
+        cvxopt = load_cvxopt()
         coordinates = sparse.coo_matrix(graph + sparse.identity(graph.shape[0], format="csr"))
         lower = coordinates.row >= coordinates.col
         matrix = cvxopt.spmatrix(1.0, coordinates.row[lower].tolist(), coordinates.col[lower].tolist(), graph.shape, tc="d")

@@ -89,8 +89,10 @@ class _Publisher:
 def engine_main(connection: Connection, spawned_at: float, threads: int) -> None:
     """Body of the child process; ends with `Quit`, or when the pipe breaks."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal is for the window
+    from workbench.core.memory import keep_freed_memory
     from workbench.core.threads import set_thread_count
 
+    keep_freed_memory()
     if threads:
         set_thread_count(threads)
     box = CommandBox()
