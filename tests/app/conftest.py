@@ -89,6 +89,9 @@ def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) ->
     """One window for the tests of a module: making one takes a second without a graphics card."""
     window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
     window.bridge.start()
+    while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
+        QTest.qWait(20)
+    QTest.qWait(100)
     yield window
     end_window(window)
 
@@ -103,6 +106,7 @@ def window(kept_window: MainWindow, qtbot: QtBot) -> MainWindow:
     kept_window.document.choose(**{f: getattr(Session(), f) for f in ("distortion", "solver", "fixed_boundary", "match_area")})
     kept_window.open("grid")
     qtbot.waitUntil(lambda: kept_window.document.positions is not None and not kept_window.document.opening_source)
+    qtbot.waitUntil(lambda: kept_window.target.view.geometry_shown is not None)
     QTest.qWait(30)
     kept_window.error_bar.dismiss()
     kept_window.commands.fit()

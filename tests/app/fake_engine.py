@@ -143,9 +143,10 @@ class FakeWorker:
         stretch = area / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
         sigma = np.sqrt(np.abs(stretch))
         inverted = area <= 0
-        counts, edges = np.histogram(sigma, bins=24)
+        counts, edges = np.histogram(sigma, bins=24, range=(0.0, float(sigma.max()) + 0.1))
         energy = float((sigma**2 + 1 / np.maximum(sigma, 1e-3) ** 2).mean())
-        row = HistoryRow(self._iteration, 0.01 * self._iteration, energy, energy, 1 / self._iteration, 1.0, int(inverted.sum()), 0.0)
+        seconds, norm = 0.01 * self._iteration, 1 / self._iteration
+        row = HistoryRow(self._iteration, seconds, energy, energy, norm, 1.0, int(inverted.sum()), 0.0)
         phase = "dragging" if self._dragging and self._running else "running" if self._running else "idle"
         self._tell(
             Snapshot(

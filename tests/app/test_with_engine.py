@@ -142,9 +142,10 @@ from workbench.app.settings import Settings
 from workbench.app.theme import ThemeSwitch
 for cycle in range(20):
     # the real engine now and then: starting twenty processes takes longer than the test is worth
-    window = MainWindow(ThemeSwitch(application, "light"), Settings(sys.argv[1]), engine_worker if cycle % 7 == 3 else FakeWorker)
+    make_worker, source = (engine_worker, "") if cycle % 7 == 3 else (FakeWorker, "grid")
+    window = MainWindow(ThemeSwitch(application, "light"), Settings(sys.argv[1]), make_worker)
     window.show()
-    window.start("grid" if cycle % 7 != 3 else "")
+    window.start(source)
     QTimer.singleShot(60 + 20 * (cycle % 3), window.close)
     application.exec()
     window.deleteLater()

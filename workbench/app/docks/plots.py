@@ -15,13 +15,13 @@ from workbench.app.theme import Theme
 class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
     """An axis whose marks stand at powers of ten, or at 1, 2, 5 times them where few powers are in sight."""
 
-    def tickValues(self, low: float, high: float, size: float) -> list[tuple[float, list[float]]]:  # noqa: N802
+    def tickValues(self, low: float, high: float, size: float) -> list[tuple[float, list[float]]]:
         if not self.logMode:
             return list(super().tickValues(low, high, size))
         most = max(int(size / 28), 2)
         return [(1.0, decade_marks(low, high, most))]
 
-    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:
         if not self.logMode:
             return list(super().tickStrings(values, scale, spacing))
         return [short_number(10.0**value) for value in values]

@@ -10,7 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from workbench.app.theme import CUT, INVERTED_OUTLINE, Theme
+from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
@@ -44,14 +44,14 @@ class Surface:
         self._mapper.SetColorModeToMapScalars()
         self._mapper.UseLookupTableScalarRangeOn()
         self._actor = _actor(self._mapper)
-        self._outline = vtkPolyData()
-        self._outline.SetPoints(geometry.vtk_points)
-        self._outline_actor = _line_actor(self._outline, INVERTED_OUTLINE, 1.5, -6.0)
-        self._outlined: Integers = np.empty(0, np.int64)
+        self._inverted = vtkPolyData()
+        self._inverted.SetPoints(geometry.vtk_points)
+        self._inverted_actor = _inverted_actor(self._inverted)
+        self._inverted_rows: Integers = np.empty(0, np.int64)
         self._cut = vtkPolyData()
         self._cut.SetPoints(geometry.vtk_points)
         self._cut_actor = _line_actor(self._cut, CUT, 3.0, -12.0)
-        self.actors = (self._actor, self._outline_actor, self._cut_actor)
+        self.actors = (self._actor, self._inverted_actor, self._cut_actor)
         self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
         self.show_plain()
 
@@ -141,28 +141,29 @@ class Surface:
         if inverted.any():
             self._values[inverted] = np.nan
         self._scalars.Modified()
-        self._outline_inverted(np.flatnonzero(inverted))
+        self._show_inverted(np.flatnonzero(inverted))
 
     # ------------------------------------------------------------------------------------------ lines
 
-    def _outline_inverted(self, rows: Integers) -> None:
-        if np.array_equal(rows, self._outlined):
+    def _show_inverted(self, rows: Integers) -> None:
+        """Draw these triangles once more above the others: a map folds them below what they overlap."""
+        if np.array_equal(rows, self._inverted_rows):
             return
-        self._outlined = rows
-        self._outline_actor.SetVisibility(len(rows) > 0)
-        triangles = self.geometry.triangles[rows]
-        sides = [triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]
-        self._outline.SetLines(_lines(np.concatenate(sides)))
+        self._inverted_rows = rows
+        self._inverted_actor.SetVisibility(len(rows) > 0)
+        self._inverted.SetPolys(_cells(self.geometry.triangles[rows]))
 
     def set_cut_edges(self, edges: Integers) -> None:
         """Edges (k, 2) that a cut opened: green."""
         self._cut_actor.SetVisibility(len(edges) > 0)
-        self._cut.SetLines(_lines(edges))
+        self._cut.SetLines(_cells(edges))
 
 
-def _lines(pairs: Integers) -> vtkCellArray:
+def _cells(rows: Integers) -> vtkCellArray:
+    """Cells of equal size, one a row."""
     cells = vtkCellArray()
-    cells.SetData(2, numpy_to_vtkIdTypeArray(np.ascontiguousarray(pairs, dtype=np.int64).ravel(), deep=1))
+    flat = np.ascontiguousarray(rows, dtype=np.int64).ravel()
+    cells.SetData(rows.shape[1], numpy_to_vtkIdTypeArray(flat, deep=1))
     return cells
 
 
@@ -178,10 +179,27 @@ def _actor(mapper: vtkPolyDataMapper) -> vtkActor:
     return actor
 
 
-def _line_actor(polydata: vtkPolyData, colour: tuple[float, float, float], width: float, offset: float) -> vtkActor:
+def _inverted_actor(polydata: vtkPolyData) -> vtkActor:
+    """Yellow with dark edges, a little nearer to the eye than what lies there."""
     mapper = _mapper(polydata)
     mapper.ScalarVisibilityOff()
-    # lines lie in the triangles they belong to: they are drawn a little nearer to the eye
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -6.0)
+    actor = _actor(mapper)
+    style = actor.GetProperty()
+    style.SetColor(*INVERTED)
+    style.LightingOff()
+    style.EdgeVisibilityOn()
+    style.SetEdgeColor(*INVERTED_OUTLINE)
+    style.SetLineWidth(1.4)
+    actor.SetVisibility(False)
+    return actor
+
+
+def _line_actor(polydata: vtkPolyData, colour: tuple[float, float, float], width: float, offset: float) -> vtkActor:
+    """Lines that lie in triangles: drawn a little nearer to the eye than these."""
+    mapper = _mapper(polydata)
+    mapper.ScalarVisibilityOff()
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, offset)
     actor = _actor(mapper)
