@@ -31,7 +31,7 @@ POOR_CONTRACTION = 0.7
 """A prediction that leaves more than this part of the force is poor."""
 PATIENCE = 40
 """Steps without progress, each after a relaxation, before the run counts as stalled."""
-CHEAP_FACTORISATION = 0.020
+CHEAP_FACTORISATION = 0.030
 """Seconds; a factorisation below this is made whenever it helps."""
 SETTLED = 1e-7
 """Relative gain below which corrections with the last factor stop until something moves."""

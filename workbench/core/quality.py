@@ -49,13 +49,13 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
     finite = averages[np.isfinite(averages)]
     if not len(finite):
         return np.linspace(0.0, 1.0, HISTOGRAM_BINS + 1), np.zeros(HISTOGRAM_BINS, dtype=np.int64)
-    ordered = np.sort(finite)
-    low, high = ordered[int(0.001 * (len(ordered) - 1))], ordered[int(np.ceil(0.999 * (len(ordered) - 1)))]
+    ranks = (int(0.001 * (len(finite) - 1)), int(np.ceil(0.999 * (len(finite) - 1))))
+    low, high = np.partition(finite, ranks)[list(ranks)]
     if high - low <= 1e-9 * max(abs(high), 1e-300):
         low, high = low - 0.5 * max(abs(low), 1e-12), high + 0.5 * max(abs(high), 1e-12)
     edges = np.linspace(low, high, HISTOGRAM_BINS + 1)
-    inner = np.searchsorted(ordered, edges[1:-1])
-    counts = np.diff(np.concatenate([[0], inner, [len(ordered)]]))
+    places = np.clip((finite - low) * (HISTOGRAM_BINS / (high - low)), 0, HISTOGRAM_BINS - 1).astype(np.int64)
+    counts = np.bincount(places, minlength=HISTOGRAM_BINS)
     return edges, counts.astype(np.int64)
 
 

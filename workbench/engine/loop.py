@@ -301,8 +301,8 @@ class EngineLoop:
         if self._state is not None:
             if self._problem is not None:
                 self._problem = self._problem.with_criteria(Criteria(self._limits.tolerance))
-            limited = self._state.status in (Status.MAX_ITERATIONS, Status.TIME_LIMIT, Status.INTERRUPTED)
-            if limited or (self._steps_left and self._state.status is not Status.INVERTED_START):
+            if self._state.status not in (Status.RUNNING, Status.INVERTED_START, Status.NONFINITE):
+                # Asked again: what stopped it then (a limit, a looser tolerance) may not stop it now.
                 self._state = replace(self._state, status=Status.RUNNING, previous_energy=float("nan"))
 
     # -------------------------------------------------------------------------------------------- steps
