@@ -64,6 +64,7 @@ class Document(QObject):
         self.anchor_serial = 0
         self.selected = -1
         self.wants_to_run = False
+        self.is_held = False
         self.opening_source = ""
         self._attempt: Session | None = None
         self._runs_after_open = False
@@ -91,6 +92,7 @@ class Document(QObject):
 
     @property
     def is_running(self) -> bool:
+        """Whether the user wants the solver to run; it may have finished meanwhile."""
         return self.wants_to_run
 
     # ------------------------------------------------------------------------------------------ opening
@@ -287,6 +289,7 @@ class Document(QObject):
         """Take these anchors; `at` is the time of the event behind it, for the drag meter."""
         if self.mesh is None:
             return
+        self.is_held = dragging
         self.anchors = anchors
         if self.selected >= 0 and self.selected not in anchors:
             self.select(-1)

@@ -182,6 +182,12 @@ class MainWindow(QMainWindow):
             bar.setVisible(id == style)
         self.presenter.set_target_style(style)
 
+    def set_drawing(self, wanted: bool) -> None:
+        """Whether views follow the map at all; without, everything but the pictures goes on."""
+        for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
+            view.is_drawing = wanted
+        self.turns.is_drawing = wanted
+
     def set_source_style(self, style: str) -> None:
         self.source.set_style(style)
         self.presenter.set_source_style(style)

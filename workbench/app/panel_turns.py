@@ -11,6 +11,8 @@ from PySide6.QtWidgets import QWidget
 
 LEAST_REST = 0.016
 """Seconds between two turns at least."""
+REST_FACTOR = 3.0
+"""Rest after a turn, as a multiple of the time its drawing took: the main view comes first on large meshes."""
 COMING_TO_REST = 60
 """Milliseconds without a new map after which panels that are still behind are drawn on their own."""
 
@@ -24,6 +26,7 @@ class Panel:
 
     widget: QWidget
     draw: Callable[[], None]
+    cost: Callable[[], float]
     is_stale: bool = False
 
 
@@ -37,20 +40,22 @@ class PanelTurns(QObject):
     def __init__(self) -> None:
         super().__init__()
         self.panels: list[Panel] = []
+        self.is_drawing = True
         self._next = 0
-        self._last = 0.0
+        self._not_before = 0.0
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.timeout.connect(self._catch_up)
 
-    def add(self, widget: QWidget, draw: Callable[[], None]) -> None:
-        self.panels.append(Panel(widget, draw))
+    def add(self, widget: QWidget, draw: Callable[[], None], cost: Callable[[], float] = lambda: 0.0) -> None:
+        """`cost` tells the seconds that the last drawing of the panel took."""
+        self.panels.append(Panel(widget, draw, cost))
 
     def take_map(self) -> None:
         """A newer map is drawn in the main view: all panels are behind, one of them comes along."""
         for panel in self.panels:
             panel.is_stale = True
-        if time.perf_counter() - self._last >= LEAST_REST:
+        if time.perf_counter() >= self._not_before:
             self._turn()
         self._rest.start(COMING_TO_REST)
 
@@ -71,16 +76,18 @@ class PanelTurns(QObject):
 
     def _catch_up(self) -> None:
         self._turn()
-        if any(panel.is_stale and panel.widget.isVisible() for panel in self.panels):
+        if self.is_drawing and any(panel.is_stale and panel.widget.isVisible() for panel in self.panels):
             self._rest.start(BETWEEN)
 
     def _turn(self) -> None:
+        if not self.is_drawing:
+            return
         count = len(self.panels)
         for offset in range(count):
             panel = self.panels[(self._next + offset) % count]
             if panel.is_stale and panel.widget.isVisible():
                 self._next = (self._next + offset + 1) % count
-                self._last = time.perf_counter()
+                self._not_before = time.perf_counter() + max(LEAST_REST, REST_FACTOR * panel.cost())
                 panel.is_stale = False
                 panel.draw()
                 return

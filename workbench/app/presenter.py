@@ -45,18 +45,20 @@ class Presenter(QObject):
         self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
         self._hovered = -1
+        self._fits_next = False
         self._late_marks = QTimer(self)
         self._late_marks.setSingleShot(True)
         self._late_marks.setInterval(MARKS_WAIT)
         self._late_marks.timeout.connect(self._draw_marks)
-        turns.add(source, self._draw_source)
+        turns.add(source, self._draw_source, lambda: source.canvas.seconds)
         document.opened.connect(self._show_mesh)
         document.closed.connect(self.clear)
         document.snapshot_taken.connect(self._show_snapshot)
+        document.history_restarted.connect(self._start_again)
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         for dock in maps:
-            turns.add(dock.view, lambda d=dock: self._draw_map(d))
+            turns.add(dock.view, lambda d=dock: self._draw_map(d), lambda d=dock: d.view.canvas.seconds)
         for colour_range in ranges.values():
             colour_range.changed.connect(self._apply_target_style)
 
@@ -94,6 +96,10 @@ class Presenter(QObject):
         self._apply_target_style()
         return geometry
 
+    def _start_again(self) -> None:
+        """A new start may have another size."""
+        self._fits_next = True
+
     def refit_target(self) -> None:
         """Fit the target and the panels to the map as it is now."""
         self.target.fit()
@@ -119,6 +125,10 @@ class Presenter(QObject):
         if is_first:
             self.refit_target()
             self._draw_source()
+        elif self._fits_next or not len(self._document.anchors):
+            # whoever moves anchors wants the picture to stand still
+            self.target.fit_if_it_left()
+        self._fits_next = False
         self.target.refresh()
         self._turns.take_map()
         self.picture_sent.emit(snapshot.anchor_serial)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -92,7 +93,7 @@ class Reporter(QObject):
 
     def _refused(self, report: Refused) -> None:
         self._window.progress.end()
-        self._window.error_bar.show_message(report.sentence, report.fixes, "\n".join(report.lines))
+        self._window.error_bar.show_message(in_window_words(report.sentence), report.fixes, "\n".join(report.lines))
         if report.command == "Load":
             self._window.status.say("Nothing was opened.")
         self._window.panel.show_session()
@@ -176,7 +177,7 @@ class Reporter(QObject):
                 f"An anchor lags: triangle {snapshot.limiting_simplex} would invert; the map follows as far as it can."
             )
         elif snapshot.phase == "finished":
-            self._window.status.say(snapshot.status.value)
+            self._window.status.say(in_window_words(snapshot.status.value))
         elif snapshot.phase == "dragging":
             self._window.status.say("The map follows the hand.")
         elif snapshot.phase == "running":
@@ -230,6 +231,13 @@ def source_name(source: str) -> str:
     if is_sample(source):
         return source.removeprefix(SAMPLE).replace("-", " ").capitalize()
     return Path(source).name
+
+
+def in_window_words(sentence: str) -> str:
+    """A sentence of the engine without the options of the command line: here a button or a key stands for them."""
+    sentence = re.sub(r"[;,]\s*apply --fix [a-z,]+", "", sentence)
+    sentence = re.sub(r"raise --[a-z-]+ to go on", "run again to go on", sentence)
+    return re.sub(rf"^{SAMPLE}([a-z0-9-]+)", lambda found: source_name(found.group(0)), sentence)
 
 
 def counted(number: int) -> str:

@@ -66,6 +66,7 @@ class ColourMapDock(QDockWidget):
         if self.view.surface is None or values is None:
             return
         self.view.points_changed()
+        self.view.fit_if_it_left()
         self.view.surface.set_values(values, snapshot.inverted)
         finite = values[np.isfinite(values)] if not np.isfinite(values).all() else values
         if len(finite):

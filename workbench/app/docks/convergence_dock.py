@@ -84,3 +84,5 @@ class ConvergenceDock(QDockWidget):
         counts = self._history.column("inverted")
         most = float(counts.max()) if len(counts) else 0.0
         self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)
+        # a count has no halves
+        self._plots[2].getAxis("left").setTickSpacing(levels=[(1.0, 0.0)] if most < 4 else None)

@@ -9,6 +9,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.quantities import rounded_up
 from workbench.app.theme import Theme
 
 
@@ -28,22 +29,22 @@ class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
 
 
 def decade_marks(low: float, high: float, most: int) -> list[float]:
-    """Logarithms of at most `most` round numbers between 10**low and 10**high; evenly spread where none is round."""
+    """Logarithms of at most `most` round numbers between 10**low and 10**high."""
     if not (math.isfinite(low) and math.isfinite(high)) or high <= low:
         return []
-    decades = list(range(math.ceil(low), math.floor(high) + 1))
-    if len(decades) >= 3:
-        step = math.ceil(len(decades) / most)
-        return [float(d) for d in decades if d % step == 0] or [float(decades[0])]
-    for factors in ((1, 2, 3, 4, 5, 6, 7, 8, 9), (1, 2, 5)):
-        marks = [d + math.log10(f) for d in range(math.floor(low), math.ceil(high) + 1) for f in factors]
-        marks = [m for m in marks if low <= m <= high]
-        if 2 <= len(marks) <= most:
-            return marks
-        if len(marks) < 2:
-            break
-    count = min(most, 3)
-    return [low + (high - low) * (i + 0.5) / count for i in range(count)]
+    decades = [float(d) for d in range(math.ceil(low), math.floor(high) + 1)]
+    if len(decades) >= 2:
+        return decades[:: math.ceil(len(decades) / most)]
+    start = math.floor(low)
+    marks = [start + d + math.log10(f) for d in (0, 1) for f in (1, 2, 5)]
+    marks = [mark for mark in marks if low <= mark <= high]
+    if len(marks) >= 2:
+        return marks[:: math.ceil(len(marks) / most)]
+    # less than a factor of five in sight: the axis is nearly linear
+    least, greatest = 10.0**low, 10.0**high
+    step = rounded_up((greatest - least) / most)
+    first, last = math.ceil(least / step), math.floor(greatest / step)
+    return [math.log10(k * step) for k in range(first, last + 1) if k > 0]
 
 
 def short_number(value: float) -> str:

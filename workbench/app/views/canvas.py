@@ -8,6 +8,7 @@ its own rectangle is copied (a few ms).
 from __future__ import annotations
 
 import os
+import time
 from functools import lru_cache
 from typing import Any, Protocol
 
@@ -26,10 +27,14 @@ CHOICE = "WORKBENCH_DRAWING"
 
 
 class Canvas(Protocol):
-    """A widget with one VTK renderer; `drawn` tells that a picture is on its way to the screen."""
+    """A widget with one VTK renderer; `drawn` tells that a picture is on its way to the screen.
+
+    `seconds` is what the last drawing took of this thread's time.
+    """
 
     drawn: Any
     renderer: Any
+    seconds: float
 
     def draw_again(self) -> None: ...
     def close_canvas(self) -> None: ...
@@ -52,6 +57,7 @@ class MemoryCanvas(QWidget):
         self._pixels = vtkUnsignedCharArray()
         self._image: QImage | None = None
         self._is_stale = True
+        self.seconds = 0.0
 
     def draw_again(self) -> None:
         self._is_stale = True
@@ -62,7 +68,9 @@ class MemoryCanvas(QWidget):
         width, height = max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1)
         image = self._image
         if self._window is not None and (self._is_stale or image is None or image.size().toTuple() != (width, height)):
+            begin = time.perf_counter()
             image = self._image = self._draw(width, height)
+            self.seconds = time.perf_counter() - begin
             self._is_stale = False
         if image is None:
             return
@@ -107,6 +115,7 @@ class CardCanvas(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.plotter)
         self.plotter.frameSwapped.connect(self.drawn)
+        self.seconds = 0.0  # what the card does goes on beside us
         self._is_closed = False
 
     def draw_again(self) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
@@ -36,6 +38,7 @@ class MeshView(QWidget):
         self.geometry_shown: Geometry | None = None
         self.surface: Surface | None = None
         self._is_closed = False
+        self.is_drawing = True
         self._wants_fit = True
         self._version = 0
         self._screen: tuple[int, Size, ScreenTriangles] | None = None
@@ -83,7 +86,7 @@ class MeshView(QWidget):
 
     def refresh(self) -> None:
         """Draw at the next turn of the event loop, where the view is to be seen at all."""
-        if not self._is_closed and self.is_shown():
+        if self.is_drawing and not self._is_closed and self.is_shown():
             self.canvas.draw_again()
             self.overlay.update()
 
@@ -109,6 +112,17 @@ class MeshView(QWidget):
         if self.geometry_shown is not None:
             self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels))
         self._wants_fit = True
+
+    def fit_if_it_left(self) -> None:
+        """Fit once more where the map has grown out of a view whose camera nobody has touched, or became tiny in it."""
+        if not self._wants_fit or self.geometry_shown is None:
+            return
+        width, height = self.size_in_pixels
+        corners = self.project(box_corners(self.geometry_shown.points))
+        (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
+        has_left = left < 0 or top < 0 or right > width or bottom > height
+        if has_left or max((right - left) / width, (bottom - top) / height) < 0.45:
+            self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         self.canvas.setGeometry(self.rect())
@@ -164,3 +178,9 @@ class MeshView(QWidget):
         if not self._is_closed:
             self._is_closed = True
             self.canvas.close_canvas()
+
+
+def box_corners(points: NDArray[np.float32]) -> Floats:
+    """Corners (8, 3) of the box round points (n, 3)."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])

@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
@@ -94,7 +95,7 @@ class Surface:
     def show_range(self, low: float, high: float) -> None:
         """Colours of a distortion from `low` to `high`."""
         self._drop_texture()
-        self._actor.GetProperty().SetEdgeOpacity(0.35)
+        self._actor.GetProperty().SetEdgeOpacity(0.3)
         self._is_plain = False
         self._mapper.SetLookupTable(lookup_table(distortion_colours(), low, high))
 
@@ -110,7 +111,7 @@ class Surface:
             self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
             self._texture_data = numpy_to_vtk(self._texture_points, deep=0)
             self._polydata.GetPointData().SetTCoords(self._texture_data)
-        self._actor.SetTexture(pattern_texture(pattern, self._theme.is_dark))
+        self._actor.SetTexture(pattern_texture(pattern, self._theme.is_dark, draws_with_card()))
         self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()

@@ -17,8 +17,8 @@ TILES_ACROSS = 14.0
 
 
 def pattern_image(pattern: Pattern, dark: bool) -> NDArray[np.uint8]:
-    """One tile (128, 128, 3) of a pattern: two by two fields of a board, or one cell of a grid."""
-    size = 128
+    """One tile (64, 64, 3) of a pattern: two by two fields of a board, or one cell of a grid."""
+    size = 64
     paper, ink = ((58, 66, 76), (118, 132, 148)) if dark else ((250, 251, 252), (150, 166, 186))
     image = np.empty((size, size, 3), np.uint8)
     image[:] = paper
@@ -26,15 +26,15 @@ def pattern_image(pattern: Pattern, dark: bool) -> NDArray[np.uint8]:
     if pattern == "checkerboard":
         image[(row < size // 2) != (column < size // 2)] = ink
     elif pattern == "grid":
-        line = 7
+        line = 4
         image[(row < line) | (column < line)] = ink
-        thin = np.abs(row - size // 2) < 2
-        image[thin | (np.abs(column - size // 2) < 2)] = ink
+        middle = size // 2
+        image[(row == middle) | (column == middle)] = ink
     return image
 
 
-def pattern_texture(pattern: Pattern, dark: bool) -> vtkTexture:
-    """A VTK texture that repeats and is filtered when it is far away."""
+def pattern_texture(pattern: Pattern, dark: bool, fine: bool) -> vtkTexture:
+    """A VTK texture that repeats; `fine` filters it when it is far away, which costs much without a graphics card."""
     image = pattern_image(pattern, dark)
     data = vtkImageData()
     data.SetDimensions(image.shape[1], image.shape[0], 1)
@@ -43,5 +43,5 @@ def pattern_texture(pattern: Pattern, dark: bool) -> vtkTexture:
     texture.SetInputData(data)
     texture.RepeatOn()
     texture.InterpolateOn()
-    texture.MipmapOn()
+    texture.SetMipmap(fine)
     return texture
