@@ -97,6 +97,7 @@ class AnchorTool(NavigationTool):
         self._pressed_at = QPointF()
         self._pressed_vertex = -1
         self._held = -1
+        self._grip = QPointF()
         self._was_moved = False
         self._pending: tuple[QPointF, float] | None = None
         self._throttle = QTimer(self)
@@ -137,9 +138,14 @@ class AnchorTool(NavigationTool):
             super().press(event)
 
     def _hold(self, vertex: int) -> None:
+        """Take an anchor up where it was touched: it does not jump to the pointer."""
         if self._is_target:
             self._held = vertex
             self._was_moved = False
+            scene = self.view.overlay.scene
+            row = int((scene.anchor_vertices == vertex).argmax())
+            x, y = self.view.project(scene.anchor_points[[row]])[0]
+            self._grip = self._pressed_at - QPointF(x, y)
 
     def move(self, event: QMouseEvent) -> None:
         if self._held >= 0:
@@ -166,6 +172,7 @@ class AnchorTool(NavigationTool):
             self._throttle.stop()
             return
         where, at = self._pending
+        where -= self._grip
         self._pending = None
         self.anchor_moved.emit(self._held, self.view.position_at((where.x(), where.y())), True, at)
 
@@ -186,6 +193,7 @@ class AnchorTool(NavigationTool):
         vertex, self._held = self._held, -1
         self._throttle.stop()
         self._pending = None
+        where -= self._grip
         if self._was_moved:
             self.anchor_moved.emit(vertex, self.view.position_at((where.x(), where.y())), False, time.perf_counter())
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -79,6 +80,7 @@ class Commands(QObject):
         dialog = QFileDialog(self._window, "Save the map", str(Path(self._window.settings.folder) / name), FILTERS)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("obj")
+        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(suffix_of(chosen)))
         self._ask(dialog, self.save_map)
 
     def save_map(self, path: str) -> None:
@@ -178,6 +180,12 @@ class Commands(QObject):
         box.setText(text)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
+
+
+def suffix_of(name_filter: str) -> str:
+    """First ending that a name filter of a dialog stands for; OBJ where it stands for all."""
+    found = re.search(r"\*\.(\w+)", name_filter)
+    return found.group(1) if found else "obj"
 
 
 def boundary_vertices(triangles: Any) -> Any:

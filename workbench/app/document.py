@@ -33,7 +33,8 @@ SAMPLE = "sample:"
 PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions"}
 SOLVER_FIELDS = {"solver", "solver_parameters"}
 START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
-LOAD_FIELDS = {"source", "kind", "fixes"}
+REFUSABLE = {"SetProblem": PROBLEM_FIELDS, "SetSolver": SOLVER_FIELDS, "Reset": START_FIELDS}
+"""Commands that the engine may refuse -> fields of the session that then go back to what they were."""
 
 
 class Document(QObject):
@@ -68,6 +69,7 @@ class Document(QObject):
         self.opening_source = ""
         self._attempt: Session | None = None
         self._runs_after_open = False
+        self._before: dict[str, dict[str, Any]] = {}
         self._is_opening = False
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
@@ -169,7 +171,10 @@ class Document(QObject):
     def _take_refused(self, report: Refused) -> None:
         if report.generation == self.generation or report.command != "Load":
             self.opening_source = ""
-            if report.command in ("Reset", "SetProblem", "SetSolver", "Run", "Step"):
+            if report.command in REFUSABLE:
+                self.session = replace(self.session, **self._before.pop(report.command, {}))
+                self.session_changed.emit()
+            elif report.command in ("Run", "Step"):
                 self.wants_to_run = False
                 self.session_changed.emit()
             self.refused.emit(report)
@@ -213,8 +218,11 @@ class Document(QObject):
         session = replace(self.session, **changes)
         if session == self.session:
             return
-        self.session = session
         names = set(changes)
+        for command, fields in REFUSABLE.items():
+            if names & fields:
+                self._before[command] = {name: getattr(self.session, name) for name in fields}
+        self.session = session
         if names & PROBLEM_FIELDS:
             self._bridge.post(self._problem(session))
         if names & SOLVER_FIELDS:

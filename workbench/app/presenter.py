@@ -189,6 +189,7 @@ class Presenter(QObject):
             self._anchors_changed()
 
     def _anchors_changed(self) -> None:
+        self._mark()
         if self._document.is_running:
             if not self._late_marks.isActive():
                 self._late_marks.start()
@@ -200,7 +201,6 @@ class Presenter(QObject):
 
     def _draw_marks(self) -> None:
         """Paint the layers above anew; the pictures below stay as they are."""
-        self._mark()
         self.source.overlay.update()
         self.target.overlay.update()
 

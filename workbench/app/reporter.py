@@ -158,6 +158,8 @@ class Reporter(QObject):
     def _snapshot(self) -> None:
         snapshot = self._document.snapshot
         assert snapshot is not None
+        if not self._document.opening_source:
+            self._window.progress.end()
         iteration = snapshot.row.iteration
         if self._last_iteration >= 0 and iteration > self._last_iteration:
             self.rate_meter.take(iteration - self._last_iteration)

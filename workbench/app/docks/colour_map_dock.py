@@ -71,5 +71,10 @@ class ColourMapDock(QDockWidget):
         finite = values[np.isfinite(values)] if not np.isfinite(values).all() else values
         if len(finite):
             least, mean, most = float(finite.min()), float(finite.mean(dtype=np.float64)), float(finite.max())
-            self.numbers.setText(f"min {least:.4g}   mean {mean:.4g}   max {most:.4g}")
+            self.numbers.setText(f"min {shown(least)}   mean {shown(mean)}   max {shown(most)}")
         self.view.refresh()
+
+
+def shown(value: float) -> str:
+    """Four digits; the largest numbers of single precision stand for infinity."""
+    return "∞" if value > 1e30 else f"{value:.4g}"

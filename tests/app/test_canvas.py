@@ -1,0 +1,94 @@
+"""Both ways of drawing: into memory, and through pyvistaqt's widget."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from PySide6.QtGui import QImage
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from tests.app.fake_engine import bumpy_mesh, grid_mesh
+from workbench.app.theme import LIGHT
+from workbench.app.views import mesh_view
+from workbench.app.views.canvas import CardCanvas, MemoryCanvas
+from workbench.app.views.geometry import Geometry
+from workbench.app.views.mesh_view import MeshView
+from workbench.core.mesh import Mesh
+
+CANVASES = {"memory": MemoryCanvas, "card": CardCanvas}
+
+
+@pytest.fixture
+def make_view(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator:
+    views = []
+
+    def make(way: str, mesh: Mesh) -> MeshView:
+        monkeypatch.setattr(mesh_view, "make_canvas", CANVASES[way])
+        view = MeshView(LIGHT)
+        qtbot.addWidget(view)
+        view.resize(240, 180)
+        view.show()
+        qtbot.waitExposed(view)
+        view.show_geometry(Geometry(mesh.vertices, mesh.simplices), edges=False)
+        views.append(view)
+        return view
+
+    yield make
+    for view in views:
+        view.close_view()
+
+
+def pixels(view: MeshView) -> np.ndarray:
+    QTest.qWait(60)
+    image = view.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : 3 * image.width()].reshape(image.height(), -1, 3).astype(int).copy()
+
+
+@pytest.mark.parametrize("mesh", [grid_mesh(), bumpy_mesh()], ids=["flat", "in space"])
+def test_both_ways_draw_the_same_picture(make_view, mesh: Mesh) -> None:
+    pictures = []
+    for way in CANVASES:
+        view = make_view(way, mesh)
+        view.surface.show_range(0.0, 1.0)
+        view.surface.set_values(np.linspace(0, 1, mesh.simplex_count), np.zeros(mesh.simplex_count, bool))
+        view.refresh()
+        pictures.append(pixels(view))
+    assert pictures[0].std() > 10, "there is something in the picture"
+    assert np.abs(pictures[0] - pictures[1]).mean() < 2.0
+
+
+@pytest.mark.parametrize("way", CANVASES)
+def test_points_written_in_place_are_drawn(make_view, way: str) -> None:
+    mesh = grid_mesh()
+    view = make_view(way, mesh)
+    before = pixels(view)
+    view.geometry_shown.write(mesh.vertices * [0.3, 1.0])
+    view.points_changed()
+    view.refresh()
+    after = pixels(view)
+    paper = (255, 255, 255)
+    assert ((after != paper).any(axis=2)).sum() < 0.6 * ((before != paper).any(axis=2)).sum()
+
+
+@pytest.mark.parametrize("way", CANVASES)
+def test_the_camera_draws_vertices_where_it_says(make_view, way: str) -> None:
+    mesh = grid_mesh()
+    view = make_view(way, mesh)
+    picture = pixels(view)
+    corners = view.project(view.geometry_shown.points[[0, 20, 252, 272]])
+    drawn = np.argwhere((picture != (255, 255, 255)).any(axis=2))[:, ::-1]
+    np.testing.assert_allclose(drawn.min(axis=0), corners.min(axis=0), atol=1.6)
+    np.testing.assert_allclose(drawn.max(axis=0), corners.max(axis=0), atol=1.6)
+
+
+@pytest.mark.parametrize("way", CANVASES)
+def test_a_closed_view_draws_no_more(make_view, way: str) -> None:
+    view = make_view(way, grid_mesh())
+    view.close_view()
+    view.refresh()
+    view.close_view()
+    QTest.qWait(20)
