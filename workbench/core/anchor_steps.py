@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 BOUNDARY_PART = 0.6
 """Part of the largest step without inversion that anchors may push: what is left lets the next correction push back."""
+PREDICTED_ANCHORS = 4
+"""Anchors that may move at once for their response to be kept."""
+PREDICTED_RISE = 0.02
+"""Part of the energy that a prediction may cost; a dearer one is left to a step that weighs it."""
 POOR_CONTRACTION = 0.7
 """A prediction that leaves more than this part of the force is poor."""
 PATIENCE = 40
@@ -83,6 +87,50 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         return _push(problem, state, evaluation.energy, evaluation.gradient, direction, fresh, interrupt)
 
 
+def predict_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State | None:
+    """Carry the map along with a few anchors that moved, without a solve: the answer to a unit displacement is kept.
+
+    What an event of the hand costs until the next picture; `approach_anchors` or `correct_with_last_factor` come after it.
+    Returns None where there is no factor for these anchors, too many of them moved, or the step before was a prediction.
+    """
+    x, system = state.positions, problem.system
+    hard = problem.anchors.hard_vertices
+    if state.approach.predicted or state.approach.hold or problem.constraints is not None or not system.serves(hard):
+        return None
+    displacement = problem.anchors.hard_targets - x[hard]
+    moved = np.flatnonzero(np.abs(displacement).max(axis=1) > 0.1 * problem.anchor_tolerance)
+    if not 0 < len(moved) <= PREDICTED_ANCHORS:
+        return None
+    direction = (displacement[moved].reshape(-1) @ system.response(hard[moved])).reshape(x.shape)
+    size, limiting = 1.0, -1
+    with problem.workspace.timed("line_search"):
+        if problem.forbids_inversions:
+            bound, simplex = largest_step(x, direction, problem.elements.simplices)
+            if BOUNDARY_PART * bound < 1.0:
+                size, limiting = BOUNDARY_PART * bound, simplex
+        candidate = x + size * direction
+        if size == 1.0:
+            candidate[hard[moved]] = problem.anchors.hard_targets[moved]
+        energy, inverted = problem.energy_and_inverted(candidate)
+    too_dear = energy > state.energy + PREDICTED_RISE * abs(state.energy)
+    if interrupt() or not math.isfinite(energy) or (inverted and state.inverted == 0) or too_dear:
+        return None
+    return replace(
+        state,
+        positions=candidate,
+        iteration=state.iteration + 1,
+        energy=energy,
+        step_size=size,
+        inverted=inverted,
+        anchor_error=problem.anchor_error(candidate),
+        status=Status.RUNNING,
+        previous_energy=float("nan"),
+        limiting_simplex=limiting,
+        memory=None,
+        approach=replace(state.approach, predicted=True, positions=None, evaluation=None),
+    )
+
+
 def correct_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State:
     """A descent step with the last factor while a hand holds still for a moment; `step_size` 0 where it gains nothing.
 
@@ -103,7 +151,7 @@ def correct_with_last_factor(problem: Problem, state: State, interrupt: Callable
     gain = evaluation.energy - following.energy
     if following.status is Status.RUNNING and gain <= SETTLED * abs(evaluation.energy):
         following = replace(following, step_size=0.0)
-    return replace(following, approach=replace(state.approach, refresh=following.step_size < 0.5))
+    return replace(following, approach=replace(state.approach, refresh=following.step_size < 0.5, predicted=False))
 
 
 def _push(
@@ -167,7 +215,7 @@ def _push(
         previous_energy=float("nan"),
         limiting_simplex=limiting,
         memory=None,
-        approach=Approach(poor, size < 0.1, stuck, candidate, after),
+        approach=Approach(refresh=poor, hold=size < 0.1, stuck=stuck, positions=candidate, evaluation=after),
     )
 
 

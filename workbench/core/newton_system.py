@@ -30,6 +30,7 @@ class NewtonSystem:
         self._fixed_entries: Integers = np.empty(0, dtype=np.int64)
         self._fixed_mask = np.zeros(pattern.size, dtype=bool)
         self._values: Floats | None = None
+        self._responses: dict[bytes, Floats] = {}
         self.factorised_at: int = 0
         self.seconds = {"factorise": 0.0, "solve": 0.0}
         self.counts = {"factorise": 0, "solve": 0}
@@ -65,6 +66,32 @@ class NewtonSystem:
         work = float(vector[self._fixed_coordinates] @ self._reaction(vector))
         return self.pattern.from_matrix_order(pushed), work
 
+    def response(self, vertices: Integers) -> Floats:
+        """How the map follows eliminated vertices by the last factor: -H_ff^-1 H_fa, and the anchors themselves.
+
+        Parameters
+        ----------
+        vertices : (j,) int64      some of those eliminated; their coordinates are the rows of the result
+
+        Returns
+        -------
+        (j d, N d) float64      displacement of every vertex for a unit displacement of each coordinate; kept with the factor
+        """
+        key = vertices.tobytes()
+        if key not in self._responses:
+            pattern, d = self.pattern, self.pattern.dimension
+            coordinates = (pattern.place[vertices][:, None] * d + np.arange(d)).reshape(-1)
+            rhs = np.empty((pattern.size, len(coordinates)))
+            for column, coordinate in enumerate(coordinates):
+                unit = np.zeros(pattern.size)
+                unit[coordinate] = 1.0
+                rhs[:, column] = -self._pushed(unit)
+                rhs[self._fixed_coordinates, column] = unit[self._fixed_coordinates]
+            solution = self.solver.solve(rhs)
+            self.counts["solve"] += 1
+            self._responses[key] = np.stack([pattern.from_matrix_order(c).reshape(-1) for c in solution.T])
+        return self._responses[key]
+
     def _pushed(self, vector: Floats) -> Floats:
         """H times the eliminated part of `vector`, (dN,); only entries in eliminated rows and columns are touched."""
         rows, columns, values = self._fixed_triplets()
@@ -96,6 +123,7 @@ class NewtonSystem:
     def forget(self) -> None:
         """The last factor belongs to another energy; do not use it again."""
         self._values = None
+        self._responses.clear()
 
     def _set_fixed(self, fixed: Integers) -> None:
         if np.array_equal(self._fixed, fixed):
@@ -113,6 +141,7 @@ class NewtonSystem:
         """Factorise the Hessian `values` (nnz,) with the vertices `fixed` (k,) eliminated. Raises `SingularMatrixError`."""
         begin = time.perf_counter()
         self._values = None
+        self._responses.clear()
         self._set_fixed(fixed)
         diagonal = self.pattern.diagonal
         scale = float(values[diagonal].max(initial=0.0))

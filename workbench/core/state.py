@@ -19,12 +19,13 @@ class Approach:
     """How the walk towards moved anchors goes (see `workbench.core.anchor_steps`).
 
     `refresh` : the last factor has grown poor;  `hold` : hold the anchors and relax first;
-    `stuck` : steps in a row that brought the anchors no nearer;  `evaluation` : energy and gradient at `positions`
+    `stuck` : steps in a row that brought the anchors no nearer;  `predicted` : the last step only predicted;  `evaluation` : energy and gradient at `positions`
     """
 
     refresh: bool = False
     hold: bool = False
     stuck: int = 0
+    predicted: bool = False
     positions: Floats | None = field(default=None, repr=False)
     evaluation: Evaluation | None = field(default=None, repr=False)
 

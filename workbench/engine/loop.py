@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from workbench.core.anchor_steps import approach_anchors, correct_with_last_factor
+from workbench.core.anchor_steps import approach_anchors, correct_with_last_factor, predict_with_last_factor
 from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
@@ -356,6 +356,9 @@ class EngineLoop:
         hand_moves = self._is_dragging and time.perf_counter() - self._last_anchor_command < HAND_RESTS
         if hand_moves and self._running:
             if problem.anchors_lag(state.positions):
+                predicted = predict_with_last_factor(problem, state, self._pending)
+                if predicted is not None:
+                    return predicted
                 return approach_anchors(problem, state, self._pending, eager=False)
             if self._settled:
                 return None
