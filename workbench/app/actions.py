@@ -25,9 +25,7 @@ class ActionText:
 TEXTS: dict[str, ActionText] = {
     "open": ActionText("&Open…", ("Ctrl+O",), "Open a mesh or a case", "open"),
     "save": ActionText("&Save map…", ("Ctrl+S",), "Save the map as OBJ, npz or VTU", "save"),
-    "shot-source": ActionText("Screenshot of the source…"),
-    "shot-target": ActionText("Screenshot of the target…"),
-    "shot-window": ActionText("Screenshot of the window…", ("Ctrl+Shift+S",)),
+    "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
     "quit": ActionText("&Quit", ("Ctrl+Q",)),
     "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),
     "remove": ActionText("&Remove selected anchor", ("Del", "Backspace")),

@@ -37,8 +37,6 @@ class Commands(QObject):
         deeds: dict[str, Any] = {
             "open": self.ask_open,
             "save": self.ask_save,
-            "shot-source": lambda: self.ask_screenshot(window.source.view, "source"),
-            "shot-target": lambda: self.ask_screenshot(window.target.view, "target"),
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
             "pin": self.pin_boundary,

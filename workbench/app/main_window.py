@@ -214,7 +214,8 @@ class MainWindow(QMainWindow):
         set_icons(self.actions_by_name, theme)
         for pane in (self.source, self.target):
             pane.view.set_theme(theme)
-        for part in (*self.target_bars.values(), *self.maps, self.histogram, self.convergence, self.error_bar):
+        parts: tuple[Any, ...] = (self.histogram, self.convergence, self.error_bar)
+        for part in (*self.target_bars.values(), *self.maps, *parts):
             part.set_theme(theme)
         self.reporter.show_running()
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
-from PySide6.QtWidgets import QMenu, QToolBar
+from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
 from workbench.app.reporter import source_name
 
@@ -25,8 +25,7 @@ def fill_menus(window: MainWindow) -> None:
     samples.aboutToShow.connect(lambda: fill_samples(window, samples))
     file_menu.addSeparator()
     file_menu.addAction(actions["save"])
-    for name in ("shot-source", "shot-target", "shot-window"):
-        file_menu.addAction(actions[name])
+    _add_screenshots(window, file_menu.addMenu("S&creenshot of"))
     file_menu.addSeparator()
     file_menu.addAction(actions["quit"])
     edit = bar.addMenu("&Edit")
@@ -46,6 +45,15 @@ def fill_menus(window: MainWindow) -> None:
     help_menu = bar.addMenu("&Help")
     for name in ("shortcuts", "report", "about"):
         help_menu.addAction(actions[name])
+
+
+def _add_screenshots(window: MainWindow, menu: QMenu) -> None:
+    menu.addAction(window.actions_by_name["shot-window"])
+    parts: list[tuple[str, QWidget]] = [("source", window.source.view), ("target", window.target.view)]
+    parts += [(dock.windowTitle(), dock) for dock in window.docks[1:]]
+    for name, widget in parts:
+        action = menu.addAction(f"{name[0].upper()}{name[1:]}…")
+        action.triggered.connect(lambda _=False, w=widget, n=name: window.commands.ask_screenshot(w, n))
 
 
 def _add_themes(window: MainWindow, menu: QMenu) -> None:

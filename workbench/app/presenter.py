@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
@@ -14,6 +16,7 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import PATTERNS
 from workbench.core.arrays import Floats
 
+EMPTY = "Open a mesh with Ctrl+O, choose a sample in the File menu, or drop a file here."
 MARKS_WAIT = 35
 """Milliseconds that moved anchors wait for the map that follows them, to be drawn in one pass with it."""
 
@@ -50,7 +53,7 @@ class Presenter(QObject):
         self._late_marks.setSingleShot(True)
         self._late_marks.setInterval(MARKS_WAIT)
         self._late_marks.timeout.connect(self._draw_marks)
-        turns.add(source, self._draw_source, lambda: source.canvas.seconds)
+        turns.add(source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
         document.closed.connect(self.clear)
         document.snapshot_taken.connect(self._show_snapshot)
@@ -58,7 +61,7 @@ class Presenter(QObject):
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         for dock in maps:
-            turns.add(dock.view, lambda d=dock: self._draw_map(d), lambda d=dock: d.view.canvas.seconds)
+            turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         for colour_range in ranges.values():
             colour_range.changed.connect(self._apply_target_style)
 
@@ -68,6 +71,7 @@ class Presenter(QObject):
         self._target_geometry = None
         for view in (self.source, self.target):
             view.clear()
+            view.overlay.message = EMPTY if self._document.mesh is None else ""
         for dock in self._maps:
             dock.clear()
         self._mark()
@@ -127,7 +131,7 @@ class Presenter(QObject):
             self._draw_source()
         elif self._fits_next or not len(self._document.anchors):
             # whoever moves anchors wants the picture to stand still
-            self.target.fit_if_it_left()
+            self.target.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
         self._fits_next = False
         self.target.refresh()
         self._turns.take_map()
@@ -150,6 +154,9 @@ class Presenter(QObject):
         """The source changes with the map where it carries its texture, inverted triangles or marks."""
         self._paint_source()
         self.source.refresh()
+
+    def _source_cost(self) -> float:
+        return self.source.canvas.seconds
 
     def _draw_map(self, dock: ColourMapDock) -> None:
         if self._document.snapshot is not None:

@@ -144,8 +144,6 @@ class Reporter(QObject):
         window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {counted(mesh.simplex_count)} triangles")
         window.source.caption.setToolTip("\n".join(loaded.lines))
         window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
-        for pane in (window.source, window.target):
-            pane.view.overlay.message = ""
         surface = window.source.view.surface
         window.actions_by_name["edges"].setChecked(surface is not None and surface.has_edges)
 
@@ -224,7 +222,7 @@ class Reporter(QObject):
         has_mesh = document.mesh is not None
         is_running = document.wants_to_run and not (snapshot is not None and snapshot.phase == "finished")
         show_running(window.actions_by_name["run"], is_running, window.theme)
-        for name in ("run", "step", "reset", "save", "pin", "clear", "fit", "shot-source", "shot-target"):
+        for name in ("run", "step", "reset", "save", "pin", "clear", "fit"):
             window.actions_by_name[name].setEnabled(has_mesh)
 
 

@@ -51,6 +51,10 @@ class ColourMapDock(QDockWidget):
         self.colour_range.forget()
         self._apply_range()
 
+    def cost(self) -> float:
+        """Seconds that drawing the view took last."""
+        return self.view.canvas.seconds
+
     def clear(self) -> None:
         self.view.clear()
         self.numbers.setText("")
@@ -66,7 +70,7 @@ class ColourMapDock(QDockWidget):
         if self.view.surface is None or values is None:
             return
         self.view.points_changed()
-        self.view.fit_if_it_left()
+        self.view.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
         self.view.surface.set_values(values, snapshot.inverted)
         finite = values[np.isfinite(values)] if not np.isfinite(values).all() else values
         if len(finite):

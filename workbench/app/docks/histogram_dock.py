@@ -31,6 +31,7 @@ class HistogramDock(QDockWidget):
         self.plot.setLabel("left", "simplices")
         self.setWidget(self.plot)
         self.counts = np.zeros(0, np.int64)
+        self.clear()
         self.set_theme(theme)
 
     def set_theme(self, theme: Theme) -> None:
@@ -45,6 +46,7 @@ class HistogramDock(QDockWidget):
     def clear(self) -> None:
         self.counts = np.zeros(0, np.int64)
         self._bars.setData([0.0, 1.0], [0.0])
+        self.plot.setYRange(0.0, 1.0)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         edges, counts = snapshot.histogram

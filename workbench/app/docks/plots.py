@@ -69,6 +69,7 @@ def paint_axes(plot: pg.PlotItem, theme: Theme) -> None:
     """Axes and their numbers in the colours of a theme."""
     for side in ("bottom", "left"):
         axis: Any = plot.getAxis(side)
+        axis.enableAutoSIPrefix(False)
         axis.setPen(theme.faint)
         axis.setTextPen(theme.text)
         axis.setStyle(tickLength=4, maxTickLevel=0)

@@ -25,6 +25,10 @@ class DistortionBox(QWidget):
         super().__init__(parent)
         self._known: dict[str, Distortion] = {}
         self._current = ""
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(PAUSE)
+        self._rest.timeout.connect(self._check)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
@@ -34,17 +38,13 @@ class DistortionBox(QWidget):
         self.combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.combo.setMinimumContentsLength(12)
         self.combo.setToolTip("Choose one, or type a formula such as sum(sigma^2 + 1/sigma^2) and press Enter.")
-        self.combo.completer().setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self.combo.activated.connect(self._activated)
-        edit = self.combo.lineEdit()
-        assert edit is not None
+        edit, completer = self.combo.lineEdit(), self.combo.completer()
+        assert edit is not None and completer is not None
+        completer.setCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
         self._edit = edit
         edit.textEdited.connect(lambda _: self._rest.start())
         edit.returnPressed.connect(self.accept_text)
-        self._rest = QTimer(self)
-        self._rest.setSingleShot(True)
-        self._rest.setInterval(PAUSE)
-        self._rest.timeout.connect(self._check)
         self.formula = QLabel(self)
         self.formula.setWordWrap(True)
         self.formula.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -6,12 +6,15 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.core.arrays import Floats
 
 DISTANCE = 50.0
 """Distance of the eye from the focal point, in units of the display (meshes are drawn with diameter 1)."""
 
+Points = NDArray[np.floating[Any]]
+"""(n, 3), single or double precision"""
 Pixel = tuple[float, float]
 Size = tuple[int, int]
 
@@ -38,7 +41,7 @@ class ViewCamera:
     def pixels_per_unit(self, size: Size) -> float:
         return size[1] / (2.0 * self.half_height)
 
-    def project(self, points: Floats, size: Size) -> tuple[Floats, Floats]:
+    def project(self, points: Points, size: Size) -> tuple[Floats, Floats]:
         """Where points are drawn.
 
         Parameters
@@ -89,7 +92,7 @@ class ViewCamera:
         u, _, v = np.linalg.svd(turned)
         return replace(self, axes=np.ascontiguousarray(u @ v))
 
-    def fitted(self, points: Floats, size: Size, margin: float = 1.12) -> ViewCamera:
+    def fitted(self, points: Points, size: Size, margin: float = 1.12) -> ViewCamera:
         """The same direction of sight with all `points` (n, 3) in the widget."""
         if not len(points):
             return self

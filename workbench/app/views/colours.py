@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 
 from workbench.app.theme import INVERTED, Colour
 
-TRIMMED = 14
+TRIMMED = 34
 """Entries left out at the pale end, which would be lost on a white background."""
 
 
@@ -35,7 +35,7 @@ def lookup_table(colours: NDArray[np.float64], low: float, high: float) -> vtkLo
     table = vtkLookupTable()
     table.SetNumberOfTableValues(len(colours))
     for row, colour in enumerate(colours):
-        table.SetTableValue(row, *(float(c) for c in colour), 1.0)
+        table.SetTableValue(row, (*(float(c) for c in colour), 1.0))
     table.SetRange(low, high)
     table.SetNanColor(*INVERTED, 1.0)
     return table

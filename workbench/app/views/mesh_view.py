@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.theme import Theme
-from workbench.app.views.camera import Pixel, Size, ViewCamera, slanted_axes
+from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, slanted_axes
 from workbench.app.views.canvas import make_canvas
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.overlay import Overlay
@@ -113,15 +113,18 @@ class MeshView(QWidget):
             self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels))
         self._wants_fit = True
 
-    def fit_if_it_left(self) -> None:
-        """Fit once more where the map has grown out of a view whose camera nobody has touched, or became tiny in it."""
+    def fit_if_it_left(self, least: float = 0.45) -> None:
+        """Fit once more where the map has grown out of a view whose camera nobody has touched, or shrunk in it.
+
+        `least` is the part of the view, in its tighter direction, below which the map counts as shrunk.
+        """
         if not self._wants_fit or self.geometry_shown is None:
             return
         width, height = self.size_in_pixels
         corners = self.project(box_corners(self.geometry_shown.points))
         (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
         has_left = left < 0 or top < 0 or right > width or bottom > height
-        if has_left or max((right - left) / width, (bottom - top) / height) < 0.45:
+        if has_left or max((right - left) / width, (bottom - top) / height) < least:
             self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -132,7 +135,7 @@ class MeshView(QWidget):
             self.fit()  # a view that shows everything goes on doing so while it is resized
         self.points_changed()
 
-    def project(self, points: Floats) -> Floats:
+    def project(self, points: Points) -> Floats:
         """(n, 3) of the display -> (n, 2) pixels, y downwards."""
         return self.camera.project(points, self.size_in_pixels)[0]
 

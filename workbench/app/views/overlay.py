@@ -21,7 +21,8 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
-from workbench.core.arrays import Floats, Integers
+from workbench.app.views.camera import Points
+from workbench.core.arrays import Integers
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QEvent
@@ -35,7 +36,7 @@ MANY = 60
 """Number of anchors from which on their discs are small."""
 
 
-def _no_points() -> Floats:
+def _no_points() -> Points:
     return np.empty((0, 3))
 
 
@@ -48,12 +49,12 @@ class OverlayScene:
     """
 
     anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
-    anchor_points: Floats = field(default_factory=_no_points)
-    vertex_points: Floats = field(default_factory=_no_points)
+    anchor_points: Points = field(default_factory=_no_points)
+    vertex_points: Points = field(default_factory=_no_points)
     selected: int = -1
     hovered: int = -1
-    hovered_point: Floats | None = None
-    limiting: Floats | None = None
+    hovered_point: Points | None = None
+    limiting: Points | None = None
     limiting_label: str = ""
 
 
@@ -141,7 +142,7 @@ class Overlay(QWidget):
         rim = QPen(ANCHOR_RIM, 1.8 if radius == RADIUS else 1.0)
         leash = QPen(QColor(self.theme.text), 1.2, Qt.PenStyle.DashLine)
         gaps = np.abs(discs - vertices).max(axis=1)
-        for row in np.flatnonzero(gaps > 2.0):
+        for row in np.flatnonzero(gaps > 2.0).tolist():
             painter.setPen(leash)
             painter.drawLine(QPointF(*vertices[row]), QPointF(*discs[row]))
         painter.setPen(rim)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
@@ -32,20 +31,12 @@ class ViewPane(QWidget):
             self.style_box.addItem(label, id)
         self.style_box.setToolTip(f"How the {title.lower()} is coloured")
         self.style_box.activated.connect(lambda _: self.style_chosen.emit(self.style_box.currentData()))
-        self._header = header
         header.addWidget(name)
         header.addWidget(self.caption, 1)
         header.addWidget(self.style_box)
         self._layout.addLayout(header)
         self.view = MeshView(theme, self)
         self._layout.addWidget(self.view, 1)
-
-    def add_action(self, action: QAction) -> None:
-        button = QToolButton(self)
-        button.setDefaultAction(action)
-        button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonIconOnly)
-        button.setAutoRaise(True)
-        self._header.addWidget(button)
 
     def add_below(self, widget: QWidget) -> None:
         self._layout.addWidget(widget)

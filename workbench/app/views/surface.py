@@ -11,11 +11,12 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
-from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.arrays import Booleans, Integers
 
 EDGES_UP_TO = 12_000
 """Triangles up to which their edges are drawn unasked."""
@@ -44,7 +45,7 @@ class Surface:
         self._mapper.SetScalarModeToUseCellData()
         self._mapper.SetColorModeToMapScalars()
         self._mapper.UseLookupTableScalarRangeOn()
-        self._actor = _actor(self._mapper)
+        self._actor: Any = _actor(self._mapper)
         self._inverted = vtkPolyData()
         self._inverted.SetPoints(geometry.vtk_points)
         self._inverted_actor = _inverted_actor(self._inverted)
@@ -124,7 +125,7 @@ class Surface:
     def has_texture(self) -> bool:
         return self._pattern is not None
 
-    def set_texture_positions(self, shown: Floats) -> None:
+    def set_texture_positions(self, shown: Points) -> None:
         """Take the map in units of its display (n, 2), where its diameter is 1, as texture coordinates."""
         if self._texture_points is None:
             return
