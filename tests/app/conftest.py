@@ -27,12 +27,21 @@ from workbench.session.session import Session
 WindowMaker = Callable[..., MainWindow]
 
 
-def leaked_widgets() -> list[QWidget]:
-    """Top-level widgets that are alive, after everything that waits to be deleted is gone."""
+def leaked_widgets(known: frozenset[int] = frozenset()) -> list[QWidget]:
+    """Top-level widgets that are alive, but those `known`, after everything that waits to be deleted is gone."""
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     QApplication.processEvents()
-    gc.collect()  # in this thread: Qt's objects must not end in another one
-    return [w for w in QApplication.topLevelWidgets() if w.parent() is None and not w.objectName().startswith("qt_")]
+    found = _unowned(known)
+    if found:
+        del found
+        gc.collect()  # in this thread: Qt's objects must not end in another one
+        found = _unowned(known)
+    return found
+
+
+def _unowned(known: frozenset[int]) -> list[QWidget]:
+    widgets = QApplication.topLevelWidgets()
+    return [w for w in widgets if w.parent() is None and not w.objectName().startswith("qt_") and _address(w) not in known]
 
 
 def _address(widget: QWidget) -> int:
@@ -43,9 +52,9 @@ def _address(widget: QWidget) -> int:
 @pytest.fixture(autouse=True)
 def nothing_leaks(qapp: QApplication) -> Iterator[None]:
     """Fail where a test leaves a top-level widget: it would crash a later test, far from its cause."""
-    before = {_address(w) for w in leaked_widgets()}
+    before = frozenset(_address(w) for w in _unowned(frozenset()))
     yield
-    leaked = [w for w in leaked_widgets() if _address(w) not in before]
+    leaked = leaked_widgets(before)
     assert not leaked, f"top-level widgets were left behind: {leaked}"
 
 
@@ -66,6 +75,8 @@ def end_window(window: MainWindow) -> None:
     window.close()
     window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    del window
+    gc.collect()  # in this thread: Qt's objects must not end in that of the next engine
 
 
 @pytest.fixture
