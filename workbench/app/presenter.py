@@ -232,7 +232,7 @@ class Presenter(QObject):
             else:
                 scene.anchor_points = scene.vertex_points
             scene.selected = document.selected
-            if 0 <= self._hovered < len(geometry.points):
+            if 0 <= self._hovered < len(geometry.points) and not document.is_held:
                 scene.hovered = self._hovered
                 scene.hovered_point = geometry.points[self._hovered]
             snapshot = document.snapshot
