@@ -10,12 +10,12 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from workbench.core.anchor_motion import anchor_groups, next_displacement
-from workbench.core.arrays import Floats, frozen
+from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.linear_solver import SingularMatrixError
@@ -31,6 +31,8 @@ PREDICTED_ANCHORS = 4
 """Anchors that may move at once for their response to be kept."""
 PREDICTED_RISE = 0.02
 """Part of the energy that a prediction may cost; a dearer one is left to a step that weighs it."""
+LEAST_PREDICTION = 0.02
+"""Part of the way below which a prediction is not worth its picture; the correction makes room first."""
 POOR_CONTRACTION = 0.7
 """A prediction that leaves more than this part of the force is poor."""
 PATIENCE = 40
@@ -43,17 +45,21 @@ DUTY = 0.05
 """Part of the time that dearer factorisations may take while a hand moves."""
 
 
-def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], bool], *, eager: bool = True) -> State:
+Renewal = Literal["eager", "rationed", "never"]
+"""When a poor factor is made anew: at once; while a hand moves, dear ones seldom; not at all."""
+
+
+def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], bool], *, renewal: Renewal = "eager") -> State:
     """One step towards A x = b under the step bound.
 
-    `eager` makes a fresh factor whenever the last one is poor; otherwise (a hand is moving) dear ones are rationed.
+    Where there is no factor for these anchors at all, one is made whatever `renewal` says.
     Returns the old positions with status INTERRUPTED when `interrupt` says so; STALLED, SINGULAR or NONFINITE on failure.
     """
     x = state.positions
     hard = problem.anchors.hard_vertices
     system = problem.system
     approach = state.approach
-    fresh = not system.serves(hard) or (approach.refresh and (eager or _affordable(problem)))
+    fresh = not system.serves(hard) or (approach.refresh and _renews(problem, renewal))
     if fresh:
         evaluation = problem.evaluate(x, 2)
         if not math.isfinite(evaluation.energy):
@@ -87,33 +93,46 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         return _push(problem, state, evaluation.energy, evaluation.gradient, direction, fresh, interrupt)
 
 
-def predict_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State | None:
+def predict_with_response(
+    problem: Problem,
+    state: State,
+    interrupt: Callable[[], bool],
+    response: Callable[[Integers], Floats | None],
+) -> State | None:
     """Carry the map along with a few anchors that moved, without a solve: the answer to a unit displacement is kept.
 
-    What an event of the hand costs until the next picture; `approach_anchors` or `correct_with_last_factor` come after it.
-    Returns None where there is no factor for these anchors, too many of them moved, or the step before was a prediction.
+    What an event of the hand costs until the next picture; a correction comes after it. `response` gives, for the moved
+    vertices, what `NewtonSystem.response` does, or None. Returns None where there is none, or where the step would gain
+    nothing or cost too much energy.
     """
-    x, system = state.positions, problem.system
+    x = state.positions
     hard = problem.anchors.hard_vertices
-    if state.approach.predicted or state.approach.hold or problem.constraints is not None or not system.serves(hard):
-        return None
     displacement = problem.anchors.hard_targets - x[hard]
     moved = np.flatnonzero(np.abs(displacement).max(axis=1) > 0.1 * problem.anchor_tolerance)
     if not 0 < len(moved) <= PREDICTED_ANCHORS:
         return None
-    direction = (displacement[moved].reshape(-1) @ system.response(hard[moved])).reshape(x.shape)
+    matrix = response(hard[moved])
+    if matrix is None:
+        return None
+    direction = (displacement[moved].reshape(-1) @ matrix).reshape(x.shape)
     size, limiting = 1.0, -1
     with problem.workspace.timed("line_search"):
         if problem.forbids_inversions:
             bound, simplex = largest_step(x, direction, problem.elements.simplices)
             if BOUNDARY_PART * bound < 1.0:
                 size, limiting = BOUNDARY_PART * bound, simplex
-        candidate = x + size * direction
-        if size == 1.0:
-            candidate[hard[moved]] = problem.anchors.hard_targets[moved]
-        energy, inverted = problem.energy_and_inverted(candidate)
-    too_dear = energy > state.energy + PREDICTED_RISE * abs(state.energy)
-    if interrupt() or not math.isfinite(energy) or (inverted and state.inverted == 0) or too_dear:
+        allowed = state.energy + PREDICTED_RISE * abs(state.energy)
+        while size >= LEAST_PREDICTION:
+            candidate = x + size * direction
+            if size == 1.0:
+                candidate[hard[moved]] = problem.anchors.hard_targets[moved]
+            energy, inverted = problem.energy_and_inverted(candidate)
+            if energy <= allowed and not (inverted and state.inverted == 0):
+                break
+            size *= 0.5
+        else:
+            return None
+    if interrupt():
         return None
     return replace(
         state,
@@ -131,13 +150,50 @@ def predict_with_last_factor(problem: Problem, state: State, interrupt: Callable
     )
 
 
-def correct_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State:
+def predict_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State | None:
+    """`predict_with_response` by the problem's own last factor; never twice in a row without a correction in between."""
+    system = problem.system
+    if state.approach.predicted or state.approach.hold or not system.serves(problem.anchors.hard_vertices):
+        return None
+    return predict_with_response(problem, state, interrupt, system.response)
+
+
+def apply_correction(problem: Problem, state: State, direction: Floats, gradient_norm: float) -> State:
+    """Go down along a Newton direction that was computed for a slightly older map; the anchors stay where they are.
+
+    `step_size` is 0 where the direction no longer descends.
+    """
+    x = state.positions
+    first = 1.0
+    with problem.workspace.timed("line_search"):
+        energy = problem.energy_and_inverted(x)[0]
+        if problem.forbids_inversions:
+            first = min(1.0, SAFETY * largest_step(x, direction, problem.elements.simplices)[0])
+        found = armijo(problem.energy_and_inverted, x, direction, energy, 0.0, first, lambda: False, trials=6)
+    return replace(
+        state,
+        positions=found.positions,
+        iteration=state.iteration + (found.size > 0.0),
+        energy=found.energy,
+        gradient_norm=gradient_norm,
+        step_size=found.size,
+        inverted=found.inverted if found.size else state.inverted,
+        status=Status.RUNNING,
+        previous_energy=energy if found.size else float("nan"),
+        memory=None,
+        approach=Approach(stuck=state.approach.stuck),
+    )
+
+
+def correct_with_last_factor(
+    problem: Problem, state: State, interrupt: Callable[[], bool], *, renewal: Renewal = "rationed"
+) -> State:
     """A descent step with the last factor while a hand holds still for a moment; `step_size` 0 where it gains nothing.
 
     A fresh factor is made only where it is missing, or poor and affordable.
     """
     x, system = state.positions, problem.system
-    fresh = not system.serves(problem.anchors.hard_vertices) or (state.approach.refresh and _affordable(problem))
+    fresh = not system.serves(problem.anchors.hard_vertices) or (state.approach.refresh and _renews(problem, renewal))
     evaluation = problem.evaluate(x, 2) if fresh else _evaluation(problem, state)
     if not math.isfinite(evaluation.energy):
         return replace(state, status=Status.NONFINITE)
@@ -274,8 +330,10 @@ def _groups(problem: Problem) -> list[np.ndarray]:
     return cached[1]
 
 
-def _affordable(problem: Problem) -> bool:
-    """Whether a fresh factor now keeps the pictures coming."""
+def _renews(problem: Problem, renewal: Renewal) -> bool:
+    """Whether a poor factor is made anew now; rationed: where that keeps the pictures coming."""
+    if renewal != "rationed":
+        return renewal == "eager"
     system = problem.system
     cost = system.last_factorisation_seconds
     since = (time.perf_counter_ns() - system.factorised_at) * 1e-9

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from typing import TypeVar
 
 T = TypeVar("T")
@@ -26,6 +27,17 @@ def set_thread_count(count: int) -> None:
         if _pool is not None:
             _pool.shutdown(wait=False)
             _pool = None
+
+
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Do all work in the calling thread meanwhile: for when the other cores are known to be busy."""
+    global _count
+    kept, _count = _count, 1
+    try:
+        yield
+    finally:
+        _count = kept
 
 
 def over_ranges(work: Callable[[int, int, int], T], size: int, grain: int = 4096) -> list[T]:

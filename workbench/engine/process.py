@@ -7,7 +7,7 @@ import signal
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, wait
 
 import numpy as np
 
@@ -86,7 +86,7 @@ class _Publisher:
         self._last_sent, self._last_serial = time.perf_counter(), report.anchor_serial
 
 
-def engine_main(connection: Connection, spawned_at: float, threads: int) -> None:
+def engine_main(connection: Connection, corrector: Connection, spawned_at: float, threads: int) -> None:
     """Body of the child process; ends with `Quit`, or when the pipe breaks."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal is for the window
     from workbench.core.memory import keep_freed_memory
@@ -106,7 +106,7 @@ def engine_main(connection: Connection, spawned_at: float, threads: int) -> None
         return box.interrupts
 
     publisher = _Publisher(connection)
-    loop = EngineLoop(publisher, pending)
+    loop = EngineLoop(publisher, pending, corrector)
     try:
         warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
         publisher(Ready(time.time() - spawned_at))
@@ -116,7 +116,8 @@ def engine_main(connection: Connection, spawned_at: float, threads: int) -> None
                 loop.handle(command)
             if not loop.advance():
                 publisher.flush()
-                connection.poll(NAP if loop.is_active else None)
+                others = loop.waits_for if loop.is_active else []
+                wait([connection, *others], NAP if loop.is_active else None)
     except (EOFError, BrokenPipeError, ConnectionResetError):
         pass
     finally:

@@ -13,8 +13,11 @@ from dataclasses import replace
 from multiprocessing.connection import Connection
 from typing import Any
 
-from workbench.core.jacobians import Elements, build_elements
-from workbench.core.quality import live_measures
+import numpy as np
+
+from workbench.core.jacobians import build_elements
+from workbench.engine.corrector import corrector_main
+from workbench.engine.live import LiveColours
 from workbench.engine.loop import MapReport
 from workbench.engine.messages import (
     Command,
@@ -74,9 +77,10 @@ class EngineWorker:
         self._thread = threading.Thread(target=self._main, name="engine-worker", daemon=True)
         # What the thread alone touches:
         self._process: Any = None
+        self._corrector: Any = None
         self._connection: Connection | None = None
         self._ring: PositionRing | None = None
-        self._elements: Elements | None = None
+        self._colours: LiveColours | None = None
         self._loaded: Loaded | None = None
         self._loading: Load | None = None
         self._last_map: MapReport | None = None
@@ -234,7 +238,7 @@ class EngineWorker:
     def _take_report(self, report: Report) -> None:
         if isinstance(report, Loaded):
             self._loaded, self._loading, self._last_map = report, None, None
-            self._elements = build_elements(report.mesh)
+            self._colours = LiveColours(build_elements(report.mesh))
             with self._lock:
                 self._snapshot = None
             self._unread_rows = ()
@@ -244,7 +248,7 @@ class EngineWorker:
 
     def _flush(self, report: MapReport | None) -> None:
         """Turn the newest map into a snapshot for the window."""
-        if report is None or self._ring is None or self._loaded is None or self._elements is None:
+        if report is None or self._ring is None or self._loaded is None or self._colours is None:
             return
         positions = self._ring.read(report.number)
         if positions is None:
@@ -252,7 +256,8 @@ class EngineWorker:
         positions.flags.writeable = False
         self._last_map = replace(report, positions=positions)
         self._crashes = 0
-        live = live_measures(self._elements, positions) if self._with_fields else None
+        moving = report.phase in ("dragging", "running")
+        live = self._colours.of(positions, inverted=report.inverted, moving=moving) if self._with_fields else None
         rows, self._unread_rows = self._unread_rows, ()
         snapshot = Snapshot(
             generation=report.generation,
@@ -261,9 +266,9 @@ class EngineWorker:
             phase=report.phase,
             status=report.status,
             row=report.rows[-1],
-            inverted=live.inverted if live else report.inverted,  # type: ignore[arg-type]
+            inverted=live.inverted if live else np.zeros(self._loaded.mesh.simplex_count, dtype=bool),
             fields=live.fields if live else {},
-            histogram=live.histogram if live else ((), ()),  # type: ignore[arg-type]
+            histogram=live.histogram if live else (np.zeros(2), np.zeros(1, dtype=np.int64)),
             anchor_serial=report.anchor_serial,
             limiting_simplex=report.limiting_simplex,
             seconds_published=report.seconds_published,
@@ -279,6 +284,8 @@ class EngineWorker:
                 snapshot = replace(snapshot, rows=self._snapshot.rows + snapshot.rows)
             self._snapshot = snapshot
         self._wake()
+        if moving and self._with_fields:
+            self._colours.catch_up(positions)
 
     def _report(self, report: Report) -> None:
         with self._lock:
@@ -290,12 +297,21 @@ class EngineWorker:
     def _spawn(self) -> None:
         context = multiprocessing.get_context("spawn")
         self._connection, theirs = context.Pipe(duplex=True)
+        engines, correctors = context.Pipe(duplex=True)
         with WithoutMainModule():
             self._process = context.Process(
-                target=engine_main, args=(theirs, time.time(), self._threads), name="workbench-engine", daemon=True
+                target=engine_main,
+                args=(theirs, engines, time.time(), self._threads),
+                name="workbench-engine",
+                daemon=True,
             )
             self._process.start()
-        theirs.close()
+            self._corrector = context.Process(
+                target=corrector_main, args=(correctors,), name="workbench-corrector", daemon=True
+            )
+            self._corrector.start()
+        for end in (theirs, engines, correctors):
+            end.close()
 
     def _crashed(self) -> None:
         self._crashes += 1
@@ -335,6 +351,11 @@ class EngineWorker:
 
     def _end_process(self, *, kill: bool = False) -> None:
         process, self._process = self._process, None
+        corrector, self._corrector = self._corrector, None
+        if corrector is not None:
+            corrector.kill()
+            corrector.join(timeout=5.0)
+            corrector.close()
         if process is None:
             return
         if not kill:

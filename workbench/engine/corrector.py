@@ -1,0 +1,218 @@
+"""A second process that computes fresh Newton steps while the hand moves.
+
+The engine answers an event of the hand at once, by the kept response of the map to its anchors; what that leaves to do is
+asked for here and applied when it comes. So no event waits for a factorisation, which holds the interpreter lock.
+"""
+
+from __future__ import annotations
+
+import math
+import signal
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+import numpy as np
+
+from workbench.core.anchor_steps import PREDICTED_ANCHORS
+from workbench.core.arrays import Floats, Integers
+from workbench.core.distortion import Distortion
+from workbench.core.energy import Energy
+from workbench.core.jacobians import Elements
+from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.newton_system import NewtonSystem
+from workbench.core.problem import Problem
+from workbench.core.state import State
+
+CHORDS = 3
+"""Corrections with one factor before a fresh one is made."""
+SMALLEST = 4000
+"""Simplices below which a step of the engine itself is quicker than the way to another process."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Source:
+    elements: Elements
+
+
+@dataclass(frozen=True, eq=False)
+class _Request:
+    key: tuple[Any, ...]
+    distortion: Distortion
+    positions: Floats
+    hard: Integers
+    moving: Integers
+    fresh: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Correction:
+    """A Newton direction (N, d) with the anchors held, for the map of the request, and the response where it is new.
+
+    `response` : (j d, N d) to unit displacements of `moving` (j,), see `NewtonSystem.response`;  `key` tells the request,
+    `fresh` whether the factor was made for it
+    """
+
+    key: tuple[Any, ...]
+    direction: Floats
+    gradient_norm: float
+    moving: Integers
+    response: Floats | None
+    fresh: bool
+
+
+class CorrectorClient:
+    """The engine's end: one request under way at a time; a corrector that has died is done without."""
+
+    def __init__(self, connection: Connection | None) -> None:
+        self._connection = connection
+        self._elements: Elements | None = None
+        self._asked: tuple[Any, ...] | None = None
+        self._response: tuple[tuple[Any, ...], Integers, Floats] | None = None
+
+    @property
+    def connection(self) -> Connection | None:
+        return self._connection
+
+    def serves(self, problem: Problem) -> bool:
+        """Whether this problem can be corrected elsewhere, and is worth it."""
+        return (
+            self._connection is not None
+            and problem.mesh.simplex_count >= SMALLEST
+            and problem.constraints is None
+            and not len(problem.anchors.soft[0])
+            and problem.forbids_inversions
+        )
+
+    def prepare(self, problem: Problem) -> None:
+        """Let the other side make its pattern and symbolic analysis before they are needed."""
+        if not self.serves(problem) or self._elements is problem.elements or self._connection is None:
+            return
+        try:
+            self._connection.send(_Source(problem.elements))
+            self._elements, self._response = problem.elements, None
+        except OSError:
+            self._connection = None
+
+    def ask(self, problem: Problem, state: State, *, fresh: bool = False) -> None:
+        """Ask for a correction of this map, unless one is under way; `fresh` asks for a new factor."""
+        if self._connection is None or self._asked is not None:
+            return
+        anchors = problem.anchors
+        displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
+        moved = anchors.hard_vertices[displacement > 0.1 * problem.anchor_tolerance]
+        if not len(moved) and self._response is not None:
+            moved = self._response[1]
+        if len(moved) > PREDICTED_ANCHORS:
+            moved = moved[:0]
+        key = _key(problem)
+        self.prepare(problem)
+        if self._connection is None:
+            return
+        try:
+            hard = anchors.hard_vertices
+            self._connection.send(_Request(key, problem.distortion, state.positions, hard, moved, fresh))
+            self._asked = key
+        except OSError:
+            self._connection = None
+
+    def poll(self, problem: Problem) -> Correction | None:
+        """The correction that has come, None where none has or where it belongs to another problem by now."""
+        if self._connection is None or self._asked is None:
+            return None
+        try:
+            if not self._connection.poll():
+                return None
+            correction = self._connection.recv()
+        except (EOFError, OSError):
+            self._connection = None
+            return None
+        self._asked = None
+        if not isinstance(correction, Correction) or correction.key != _key(problem):
+            return None
+        if correction.response is not None:
+            self._response = (correction.key, correction.moving, correction.response)
+        return correction
+
+    def response(self, problem: Problem, moved: Integers) -> Floats | None:
+        """The kept response to displacements of the vertices `moved`, None where there is none for these anchors."""
+        if self._response is None or self._response[0] != _key(problem):
+            return None
+        if not np.array_equal(self._response[1], moved):
+            return None
+        return self._response[2]
+
+
+def _key(problem: Problem) -> tuple[Any, ...]:
+    distortion = problem.distortion
+    values = tuple(sorted(distortion.parameter_values.items()))
+    return (id(problem.elements), distortion.formula, values, problem.anchors.hard_vertices.tobytes())
+
+
+def corrector_main(connection: Connection) -> None:
+    """Body of the process; ends when the pipe breaks."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    from workbench.core.memory import keep_freed_memory
+    from workbench.core.threads import set_thread_count
+
+    keep_freed_memory()
+    set_thread_count(1)  # the other core answers the hand
+    desk = _Desk()
+    try:
+        while True:
+            wait([connection])
+            request = None
+            while connection.poll():
+                message = connection.recv()
+                if isinstance(message, _Source):
+                    desk.take(message.elements)
+                else:
+                    request = message
+            if request is not None:
+                connection.send(desk.correct(request))
+    except (EOFError, OSError):
+        pass
+
+
+class _Desk:
+    """The corrector's own copy of the problem, with its factor."""
+
+    def __init__(self) -> None:
+        self._energy: Energy | None = None
+        self._system: NewtonSystem | None = None
+        self._key: tuple[Any, ...] = ()
+        self._chords = 0
+
+    def take(self, elements: Elements) -> None:
+        self._energy, self._system, self._key = Energy(elements, Distortion("none", "none", "sum(sigma)")), None, ()
+        self._system = NewtonSystem(self._energy.pattern)
+        self._system.solver  # noqa: B018  the symbolic analysis, before the first drag
+
+    def correct(self, request: _Request) -> Correction | None:
+        """None where no step can be computed: the engine goes on without."""
+        assert self._energy is not None
+        if request.key != self._key:
+            self._energy = self._energy.with_distortion(request.distortion, False)
+            self._key, self._chords = request.key, CHORDS
+        assert self._system is not None
+        fresh = request.fresh or self._chords >= CHORDS or not self._system.serves(request.hard)
+        try:
+            if fresh:
+                evaluation = self._energy.hessian(request.positions)
+                if not math.isfinite(evaluation.energy) or evaluation.hessian_values is None:
+                    return None
+                self._system.factorise(evaluation.hessian_values, request.hard)
+                self._chords = 0
+            else:
+                evaluation = self._energy.gradient(request.positions)
+                self._chords += 1
+            direction = self._system.solve(evaluation.gradient)
+            response = self._system.response(request.moving) if len(request.moving) else None
+        except SingularMatrixError:
+            return None
+        if not np.isfinite(direction).all():
+            return None
+        free = evaluation.gradient
+        free[request.hard] = 0.0
+        norm = float(np.linalg.norm(free))
+        return Correction(request.key, direction, norm, request.moving, response if fresh else None, fresh)
