@@ -7,6 +7,7 @@ asked for here and applied when it comes. So no event waits for a factorisation,
 from __future__ import annotations
 
 import math
+import os
 import signal
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
@@ -68,6 +69,8 @@ class CorrectorClient:
         self._connection = connection
         self._elements: Elements | None = None
         self._asked: tuple[Any, ...] | None = None
+        self._asked_fresh = False
+        self._chords = CHORDS
         self._response: tuple[tuple[Any, ...], Integers, Floats] | None = None
 
     @property
@@ -83,6 +86,11 @@ class CorrectorClient:
             and not len(problem.anchors.soft[0])
             and problem.forbids_inversions
         )
+
+    @property
+    def is_refactoring(self) -> bool:
+        """Whether the request under way takes a factorisation: long, on a large mesh."""
+        return self._asked is not None and self._asked_fresh
 
     def prepare(self, problem: Problem) -> None:
         """Let the other side make its pattern and symbolic analysis before they are needed."""
@@ -111,8 +119,10 @@ class CorrectorClient:
             return
         try:
             hard = anchors.hard_vertices
-            self._connection.send(_Request(key, problem.distortion, state.positions, hard, moved, fresh))
+            self._connection.send(_Request(key, problem.distortion, state.positions, hard, moved, fresh or self._chords >= CHORDS))
             self._asked = key
+            self._asked_fresh = fresh or self._chords >= CHORDS
+            self._chords = 0 if self._asked_fresh else self._chords + 1
         except OSError:
             self._connection = None
 
@@ -157,6 +167,8 @@ def corrector_main(connection: Connection) -> None:
 
     keep_freed_memory()
     set_thread_count(1)  # the other core answers the hand
+    if hasattr(os, "nice"):
+        os.nice(5)  # the hand and the picture come first
     desk = _Desk()
     try:
         while True:

@@ -422,7 +422,7 @@ class EngineLoop:
 
         was_bounded = state.approach.predicted and state.step_size < 1.0
         predicted = None if was_bounded else predict_with_response(problem, state, self._pending, response)
-        if predicted is None and own.serves(problem.anchors.hard_vertices):
+        if predicted is None and own.serves(problem.anchors.hard_vertices) and corrector.is_refactoring:
             # The map is pressed against an inversion: make room, as far as the last factor of our own can.
             return correct_with_last_factor(problem, state, self._pending, renewal="never")
         return predicted
