@@ -58,13 +58,16 @@ class ProjectedNewton(Solver):
             # The decrease that Newton's model promises is below rounding: the map is the minimum.
             energy = evaluation.energy
             return replace(state, iteration=state.iteration + 1, energy=energy, previous_energy=energy, step_size=0.0)
-        first, limiting = 1.0, -1
+        first, furthest, limiting = 1.0, 4.0, -1
         with problem.workspace.timed("line_search"):
             if problem.forbids_inversions:
                 bound, simplex = largest_step(x, direction, problem.elements.simplices)
-                if self.safety * bound < 1.0:
-                    first, limiting = self.safety * bound, simplex
-            found = armijo(problem.energy_and_inverted, x, direction, evaluation.energy, slope, first, interrupt)
+                furthest = min(furthest, self.safety * bound)
+                if furthest < 1.0:
+                    first, limiting = furthest, simplex
+            energy = evaluation.energy
+            search = problem.energy_and_inverted
+            found = armijo(search, x, direction, energy, slope, first, interrupt, furthest=furthest)
         if found.interrupted:
             return replace(state, status=Status.INTERRUPTED)
         if found.size == 0.0:

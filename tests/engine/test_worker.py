@@ -259,7 +259,8 @@ def test_everything_can_be_changed_while_it_runs(desk: Desk, case: str) -> None:
     desk.until(lambda: desk.snapshots[-1].distortion == "sum(sigma^4 + 1/sigma^4)")
     desk.worker.post(SetSolver())
     desk.worker.post(SetProblem(fixed_boundary=True))
-    desk.until(lambda: desk.snapshots[-1].solver == "projected-newton" and desk.snapshots[-1].distortion == "symmetric-dirichlet")
+    desk.until(lambda: desk.snapshots[-1].solver == "projected-newton")
+    desk.until(lambda: desk.snapshots[-1].distortion == "symmetric-dirichlet")
     desk.worker.post(Pause())
     desk.until(lambda: desk.snapshots[-1].phase == "idle")
     paused = desk.snapshots[-1].row.iteration

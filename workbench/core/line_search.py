@@ -70,6 +70,7 @@ def armijo(
     sufficient: float = 1e-4,
     shrink: float = 0.5,
     trials: int = 60,
+    furthest: float = 0.0,
 ) -> Step:
     """Backtracking from the step `first` until E(x + t d) <= E(x) + sufficient t slope.
 
@@ -79,6 +80,8 @@ def armijo(
     slope : float          directional derivative of the energy, negative
     first : float          first trial, already below the largest step without inversion
     interrupt : callable   asked before every trial; true ends the search with the old positions
+    furthest : float       where the first trial is accepted, a longer step, up to this one, is tried at the minimum of the
+                           parabola through what is known: a projected Hessian is too stiff, and a trial is cheap beside it
 
     Source: Nocedal & Wright 2006, section 3.1.
     """
@@ -89,9 +92,31 @@ def armijo(
         candidate = positions + size * direction
         value, inverted = evaluate(candidate)
         if value <= energy + sufficient * size * slope and math.isfinite(value):
-            return Step(candidate, size, value, inverted, trial)
+            found = Step(candidate, size, value, inverted, trial)
+            return found if trial > 1 else _extrapolated(evaluate, positions, direction, energy, slope, found, furthest)
         size *= shrink
     return Step(positions, 0.0, energy, 0, trials)
+
+
+def _extrapolated(
+    evaluate: Callable[[Floats], tuple[float, int]],
+    positions: Floats,
+    direction: Floats,
+    energy: float,
+    slope: float,
+    found: Step,
+    furthest: float,
+) -> Step:
+    """The better one of `found` and a step at the minimum of the parabola through E(x), its slope and E(x + t d)."""
+    curvature = (found.energy - energy - slope * found.size) / found.size**2
+    size = min(furthest, -0.5 * slope / curvature if curvature > 0.0 else furthest, 4.0 * found.size)
+    if not size > 1.1 * found.size:
+        return found
+    candidate = positions + size * direction
+    value, inverted = evaluate(candidate)
+    if value < found.energy and inverted <= found.inverted:
+        return Step(candidate, size, value, inverted, found.trials + 1)
+    return found
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")

@@ -73,7 +73,8 @@ class Mesh:
         if low < 0 or high >= len(self.vertices):
             bad = low if low < 0 else high
             raise MeshError(
-                f"A simplex names vertex {bad} (from 0), but the mesh has {len(self.vertices)} vertices; the file is damaged or cut short."
+                f"A simplex names vertex {bad} (from 0), but the mesh has {len(self.vertices)} vertices; "
+                "the file is damaged or cut short."
             )
         if not np.isfinite(self.vertices).all():
             row = int(np.flatnonzero(~np.isfinite(self.vertices).all(axis=1))[0])

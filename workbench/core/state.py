@@ -19,7 +19,8 @@ class Approach:
     """How the walk towards moved anchors goes (see `workbench.core.anchor_steps`).
 
     `refresh` : the last factor has grown poor;  `hold` : hold the anchors and relax first;
-    `stuck` : steps in a row that brought the anchors no nearer;  `predicted` : the last step only predicted;  `evaluation` : energy and gradient at `positions`
+    `stuck` : steps in a row that brought the anchors no nearer;  `predicted` : the last step only predicted;
+    `evaluation` : energy and gradient at `positions`
     """
 
     refresh: bool = False
@@ -40,7 +41,7 @@ class State:
     iteration : int
     energy : float                sum of w D, plus penalties of soft anchors
     gradient_norm : float         Euclidean norm over the free coordinates
-    step_size : float             of the step that led here, in (0, 1]; 0 where none was taken
+    step_size : float             of the step that led here, in units of its direction; 0 where none was taken
     inverted : int                simplices with det <= 0
     anchor_error : float          largest distance of a hard anchor from its target
     status : Status

@@ -77,8 +77,11 @@ class CorrectorClient:
     def connection(self) -> Connection | None:
         return self._connection
 
-    def serves(self, problem: Problem) -> bool:
-        """Whether this problem can be corrected elsewhere, and is worth it."""
+    def serves(self, problem: Problem, state: State) -> bool:
+        """Whether this problem can be corrected elsewhere, and is worth it; not where a whole group of anchors moves."""
+        return self._takes(problem) and len(_moved(problem, state)) <= PREDICTED_ANCHORS
+
+    def _takes(self, problem: Problem) -> bool:
         return (
             self._connection is not None
             and problem.mesh.simplex_count >= SMALLEST
@@ -94,8 +97,10 @@ class CorrectorClient:
 
     def prepare(self, problem: Problem) -> None:
         """Let the other side make its pattern and symbolic analysis before they are needed."""
-        if not self.serves(problem) or self._elements is problem.elements or self._connection is None:
+        if not self._takes(problem) or self._elements is problem.elements or self._connection is None:
             return
+        if self._asked is not None:
+            return  # it may be sending its answer: two large messages that meet would wait for each other for ever
         try:
             self._connection.send(_Source(problem.elements))
             self._elements, self._response = problem.elements, None
@@ -106,20 +111,18 @@ class CorrectorClient:
         """Ask for a correction of this map, unless one is under way; `fresh` asks for a new factor."""
         if self._connection is None or self._asked is not None:
             return
-        anchors = problem.anchors
-        displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
-        moved = anchors.hard_vertices[displacement > 0.1 * problem.anchor_tolerance]
+        moved = _moved(problem, state)
         if not len(moved) and self._response is not None:
             moved = self._response[1]
-        if len(moved) > PREDICTED_ANCHORS:
-            moved = moved[:0]
         key = _key(problem)
         self.prepare(problem)
         if self._connection is None:
             return
         try:
-            hard = anchors.hard_vertices
-            self._connection.send(_Request(key, problem.distortion, state.positions, hard, moved, fresh or self._chords >= CHORDS))
+            hard = problem.anchors.hard_vertices
+            self._connection.send(
+                _Request(key, problem.distortion, state.positions, hard, moved, fresh or self._chords >= CHORDS)
+            )
             self._asked = key
             self._asked_fresh = fresh or self._chords >= CHORDS
             self._chords = 0 if self._asked_fresh else self._chords + 1
@@ -151,6 +154,13 @@ class CorrectorClient:
         if not np.array_equal(self._response[1], moved):
             return None
         return self._response[2]
+
+
+def _moved(problem: Problem, state: State) -> Integers:
+    """Hard anchors that are not at their targets."""
+    anchors = problem.anchors
+    displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
+    return anchors.hard_vertices[displacement > 0.1 * problem.anchor_tolerance]
 
 
 def _key(problem: Problem) -> tuple[Any, ...]:

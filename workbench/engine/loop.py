@@ -10,14 +10,6 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from workbench.core.anchor_steps import (
-    SETTLED,
-    apply_correction,
-    approach_anchors,
-    correct_with_last_factor,
-    predict_with_last_factor,
-    predict_with_response,
-)
 from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
@@ -30,8 +22,7 @@ from workbench.core.run import HistoryRow, history_row
 from workbench.core.solver import Solver
 from workbench.core.state import State
 from workbench.core.status import Status
-from workbench.core.threads import one_thread
-from workbench.engine.corrector import CorrectorClient
+from workbench.engine.hand import HandFollower
 from workbench.engine.messages import (
     Command,
     Failure,
@@ -54,10 +45,6 @@ from workbench.engine.starts import adjusted_start, make_start
 
 HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
-
-
-POOR_CORRECTION = 0.25
-"""Part of a correction below which the next one is asked with a fresh factor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +80,7 @@ class EngineLoop:
         `corrector` leads to a process that runs `workbench.engine.corrector.corrector_main`; without it the loop does all
         by itself.
         """
-        self._corrector = CorrectorClient(corrector)
+        self._hand = HandFollower(corrector, pending)
         self._publish = publish
         self._pending = pending
         self._generation = 0
@@ -118,8 +105,6 @@ class EngineLoop:
         self._number = 0
         self._last_anchor_command = 0.0
         self._timing: dict[str, float] = {}
-        self._settled = False
-        self._wants_fresh = False
         self.has_quit = False
 
     # ----------------------------------------------------------------------------------------- commands
@@ -222,9 +207,9 @@ class EngineLoop:
             self._boundary_positions = start[self._boundary()].copy()
         self._problem = self._problem.with_anchors(self._all_anchors())
         self._state = replace(self._solver.init(self._problem, start), iteration=iteration)
-        self._corrector.prepare(self._problem)
+        self._hand.prepare(self._problem)
         self._rows = [history_row(self._problem, self._state, self._seconds)]
-        self._settled = False
+        self._hand.moved()
         self._begin_run()
         self.publish_map()
 
@@ -286,7 +271,7 @@ class EngineLoop:
                 memory=None,
                 approach=replace(state.approach, stuck=0),
             )
-            self._settled = False
+            self._hand.moved()
             self._begin_run()
         else:
             self._rebase()
@@ -317,7 +302,7 @@ class EngineLoop:
         if state.inverted and self._problem.density.has_barrier:
             state = replace(state, status=Status.INVERTED_START)
         self._state = state
-        self._settled = False
+        self._hand.moved()
         self._begin_run()
         if not self.is_active:
             self.publish_map()
@@ -381,60 +366,13 @@ class EngineLoop:
     def _step(self, problem: Problem, state: State, solver: Solver) -> State | None:
         hand_moves = self._is_dragging and time.perf_counter() - self._last_anchor_command < HAND_RESTS
         if hand_moves and self._running:
-            if self._corrector.serves(problem):
-                with one_thread():  # the corrector and the drawing have the other core
-                    return self._follow_hand(problem, state)
-            if problem.anchors_lag(state.positions):
-                predicted = predict_with_last_factor(problem, state, self._pending)
-                if predicted is not None:
-                    return predicted
-                return approach_anchors(problem, state, self._pending, renewal="rationed")
-            if self._settled:
-                return None
-            following = correct_with_last_factor(problem, state, self._pending)
-            self._settled = following.step_size == 0.0
-            return following
+            return self._hand.step(problem, state)
         return solver.step(problem, state, self._pending)
-
-    def _follow_hand(self, problem: Problem, state: State) -> State | None:
-        """Answer the hand by the kept response, and take up corrections as they come; never wait."""
-        corrector = self._corrector
-        correction = corrector.poll(problem)
-        if correction is not None:
-            following = apply_correction(problem, state, correction.direction, correction.gradient_norm)
-            self._settled = self._is_settled(following)
-            # One that came late is no news about its factor: only a quick one that gains nothing is.
-            self._wants_fresh = following.step_size < POOR_CORRECTION and not correction.fresh
-            if following.step_size > 0.0:
-                return following
-        lags = problem.anchors_lag(state.positions)
-        if lags or not self._settled:
-            corrector.ask(problem, state, fresh=self._wants_fresh)
-        if not lags:
-            return None
-        own = problem.system
-
-        def response(moved: np.ndarray) -> Floats | None:
-            kept = corrector.response(problem, moved)
-            if kept is None and own.serves(problem.anchors.hard_vertices):
-                kept = own.response(moved)
-            return kept
-
-        was_bounded = state.approach.predicted and state.step_size < 1.0
-        predicted = None if was_bounded else predict_with_response(problem, state, self._pending, response)
-        if predicted is None and own.serves(problem.anchors.hard_vertices) and corrector.is_refactoring:
-            # The map is pressed against an inversion: make room, as far as the last factor of our own can.
-            return correct_with_last_factor(problem, state, self._pending, renewal="never")
-        return predicted
-
-    def _is_settled(self, following: State) -> bool:
-        gain = following.previous_energy - following.energy
-        return not gain > SETTLED * abs(following.energy)
 
     @property
     def waits_for(self) -> list[Connection]:
         """What else than a command can give `advance` something to do."""
-        return [self._corrector.connection] if self._corrector.connection is not None else []
+        return self._hand.waits_for
 
     def _take_up(self, problem: Problem, solver: Solver, state: State, following: State) -> None:
         if following.status is Status.INTERRUPTED:
