@@ -93,7 +93,9 @@ def armijo(
         value, inverted = evaluate(candidate)
         if value <= energy + sufficient * size * slope and math.isfinite(value):
             found = Step(candidate, size, value, inverted, trial)
-            return found if trial > 1 else _extrapolated(evaluate, positions, direction, energy, slope, found, furthest)
+            if trial > 1 or furthest <= size:
+                return found
+            return _extrapolated(evaluate, positions, direction, energy, slope, found, furthest)
         size *= shrink
     return Step(positions, 0.0, energy, 0, trials)
 
