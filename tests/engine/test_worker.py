@@ -16,6 +16,7 @@ from tests.conftest import grid
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.registry import user_plugin_folder
 from workbench.core.status import Status
+from workbench.engine.corrector import SMALLEST
 from workbench.engine.messages import (
     Failure,
     Load,
@@ -128,12 +129,23 @@ def desk() -> Iterator[Desk]:
     assert desk.worker.process_id is None
 
 
-@pytest.fixture
-def case(tmp_path: Path) -> str:
-    mesh = grid(12)
-    path = tmp_path / "square.npz"
+def write_case(folder: Path, cells: int) -> str:
+    mesh = grid(cells)
+    path = folder / f"square_{cells}.npz"
     np.savez(path, V=mesh.vertices, S=mesh.simplices)
     return str(path)
+
+
+@pytest.fixture
+def case(tmp_path: Path) -> str:
+    return write_case(tmp_path, 12)
+
+
+@pytest.fixture
+def large_case(tmp_path: Path) -> str:
+    """Large enough that the corrector's process takes part in a drag."""
+    cells = int((SMALLEST / 2) ** 0.5) + 2
+    return write_case(tmp_path, cells)
 
 
 @pytest.fixture
@@ -145,8 +157,9 @@ def own_plugins() -> Iterator[Path]:
         file.unlink()
 
 
-def test_a_drag_keeps_every_map_free_of_inversions_and_arrives(desk: Desk, case: str) -> None:
-    first = desk.open(case)
+@pytest.mark.parametrize("size", ["case", "large_case"])
+def test_a_drag_keeps_every_map_free_of_inversions_and_arrives(desk: Desk, size: str, request: pytest.FixtureRequest) -> None:
+    first = desk.open(request.getfixturevalue(size))
     corner = first.positions.shape[0] - 1
     desk.worker.post(Run())
     elements = build_elements(desk.told(Loaded)[0].mesh)  # type: ignore[attr-defined]
@@ -188,6 +201,43 @@ def test_a_killed_engine_goes_on_from_the_last_good_map(desk: Desk, case: str) -
     assert after.number > before.number
     assert after.row.iteration > before.row.iteration
     assert np.abs(after.positions[[0, 5]] - target).max() <= 1e-9
+
+
+def test_a_drag_goes_on_without_the_corrector(desk: Desk, large_case: str) -> None:
+    first = desk.open(large_case)
+    desk.worker.post(Run())
+    corner = first.positions.shape[0] - 1
+    target = first.positions[[0, corner]].copy()
+    for event in range(1, 40):
+        target = target + [[0.0, 0.0], [-0.01, 0.005]]
+        desk.anchor([0, corner], target, event, dragging=True)
+        if event == 10:
+            os.kill(desk.worker._corrector.pid, signal.SIGKILL)
+        time.sleep(1 / 60)
+    desk.anchor([0, corner], target, 100)
+    desk.until(lambda: desk.snapshots[-1].anchor_serial == 100 and desk.snapshots[-1].phase == "finished")
+    assert not desk.told(Restarted)
+    assert np.abs(desk.snapshots[-1].positions[[0, corner]] - target).max() <= 1e-9
+
+
+def test_a_group_of_anchors_follows_the_hand(desk: Desk, large_case: str) -> None:
+    first = desk.open(large_case)
+    mesh = desk.told(Loaded)[0].mesh  # type: ignore[attr-defined]
+    right = np.flatnonzero(mesh.vertices[:, 0] == 1.0)
+    left = np.flatnonzero(mesh.vertices[:, 0] == 0.0)
+    held = [*left.tolist(), *right.tolist()]
+    target = first.positions[held].copy()
+    desk.worker.post(Run())
+    for event in range(1, 20):
+        target = target.copy()
+        target[len(left) :] += [0.01, 0.01]
+        desk.anchor(held, target, event, dragging=True)
+        time.sleep(1 / 30)
+    moved = desk.snapshots[-1].positions[right] - first.positions[right]
+    assert np.linalg.norm(moved, axis=1).min() > 0.0  # it moves while the hand does, not only after
+    desk.anchor(held, target, 100)
+    desk.until(lambda: desk.snapshots[-1].anchor_serial == 100 and desk.snapshots[-1].phase == "finished")
+    assert np.abs(desk.snapshots[-1].positions[held] - target).max() <= 1e-9
 
 
 def test_stop_ends_a_plugin_that_loops_for_ever(desk: Desk, case: str, own_plugins: Path) -> None:
