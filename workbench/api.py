@@ -7,6 +7,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
 from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
+from workbench.core.descent import derivatives_at, descend, is_finite
 from workbench.core.disc_boundary import BoundaryShape, convex_outline, disc_boundary
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Evaluation
@@ -69,9 +70,12 @@ __all__ = [
     "conformal_energy",
     "convex_outline",
     "cotangent_weights",
+    "derivatives_at",
+    "descend",
     "dirichlet_matrix",
     "disc_boundary",
     "harmonic_extension",
+    "is_finite",
     "laplacian",
     "largest_step",
     "largest_step_without_inversion",
