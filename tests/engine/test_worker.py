@@ -16,6 +16,7 @@ from tests.conftest import grid
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.registry import user_plugin_folder
 from workbench.core.status import Status
+from workbench.engine.command_box import CommandBox
 from workbench.engine.corrector import SMALLEST
 from workbench.engine.messages import (
     Failure,
@@ -34,7 +35,6 @@ from workbench.engine.messages import (
     Snapshot,
     Step,
 )
-from workbench.engine.process import CommandBox
 from workbench.engine.worker import EngineWorker
 
 PATIENCE = 60.0
@@ -338,3 +338,16 @@ def test_the_newest_of_a_kind_wins_and_steps_add_up() -> None:
     assert not box.interrupts
     box.put(Pause())
     assert box.interrupts
+
+
+def test_stop_ends_a_hang_however_many_commands_wait(desk: Desk, case: str, own_plugins: Path) -> None:
+    (own_plugins / "endless.py").write_text(LOOPS)
+    first = desk.open(case)
+    desk.worker.post(SetSolver("endless"))
+    desk.worker.post(Run())
+    time.sleep(0.3)
+    for serial in range(1, 1500):  # more than a pipe holds
+        desk.anchor([0], first.positions[[0]] + 1e-3 * serial, serial, dragging=True)
+        time.sleep(0.001)
+    desk.worker.stop()
+    desk.until(lambda: bool(desk.told(Restarted)))

@@ -10,7 +10,7 @@ import math
 import os
 import signal
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,8 @@ from workbench.core.state import State
 
 CHORDS = 3
 """Corrections with one factor before a fresh one is made."""
+GREETING, PREPARATION = ("greeting",), ("preparation",)
+"""What is waited for beside corrections: only one message is ever under way, so that no two large ones can meet."""
 SMALLEST = 4000
 """Simplices below which a step of the engine itself is quicker than the way to another process."""
 
@@ -68,14 +70,20 @@ class CorrectorClient:
     def __init__(self, connection: Connection | None) -> None:
         self._connection = connection
         self._elements: Elements | None = None
-        self._asked: tuple[Any, ...] | None = None
+        self._asked: tuple[Any, ...] | None = GREETING  # the other process says when it is there
         self._asked_fresh = False
         self._chords = CHORDS
         self._response: tuple[tuple[Any, ...], Integers, Floats] | None = None
 
     @property
-    def connection(self) -> Connection | None:
-        return self._connection
+    def waits_for(self) -> list[Connection]:
+        """The connection while an answer is on its way."""
+        return [self._connection] if self._connection is not None and self._asked is not None else []
+
+    def tend(self, problem: Problem) -> None:
+        """Between drags: take what has come, and let the other side prepare for a new source."""
+        self.poll(problem)
+        self.prepare(problem)
 
     def serves(self, problem: Problem, state: State) -> bool:
         """Whether this problem can be corrected elsewhere, and is worth it; not where a whole group of anchors moves."""
@@ -97,13 +105,12 @@ class CorrectorClient:
 
     def prepare(self, problem: Problem) -> None:
         """Let the other side make its pattern and symbolic analysis before they are needed."""
-        if not self._takes(problem) or self._elements is problem.elements or self._connection is None:
+        if not self._takes(problem) or self._elements is problem.elements or self._asked is not None:
             return
-        if self._asked is not None:
-            return  # it may be sending its answer: two large messages that meet would wait for each other for ever
+        assert self._connection is not None
         try:
             self._connection.send(_Source(problem.elements))
-            self._elements, self._response = problem.elements, None
+            self._elements, self._response, self._asked = problem.elements, None, PREPARATION
         except OSError:
             self._connection = None
 
@@ -116,7 +123,7 @@ class CorrectorClient:
             moved = self._response[1]
         key = _key(problem)
         self.prepare(problem)
-        if self._connection is None:
+        if self._connection is None or self._asked is not None:
             return
         try:
             hard = problem.anchors.hard_vertices
@@ -181,17 +188,14 @@ def corrector_main(connection: Connection) -> None:
         os.nice(5)  # the hand and the picture come first
     desk = _Desk()
     try:
+        connection.send(None)  # the greeting
         while True:
-            wait([connection])
-            request = None
-            while connection.poll():
-                message = connection.recv()
-                if isinstance(message, _Source):
-                    desk.take(message.elements)
-                else:
-                    request = message
-            if request is not None:
-                connection.send(desk.correct(request))
+            message = connection.recv()
+            if isinstance(message, _Source):
+                desk.take(message.elements)
+                connection.send(None)
+            else:
+                connection.send(desk.correct(message))
     except (EOFError, OSError):
         pass
 

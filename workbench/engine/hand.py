@@ -35,12 +35,12 @@ class HandFollower:
 
     @property
     def waits_for(self) -> list[Connection]:
-        """What else than a command can give `step` something to do."""
-        return [self._corrector.connection] if self._corrector.connection is not None else []
+        """What else than a command can give `step` or `tend` something to do."""
+        return self._corrector.waits_for
 
-    def prepare(self, problem: Problem) -> None:
-        """A new source: let the corrector make its pattern and analysis before the first drag."""
-        self._corrector.prepare(problem)
+    def tend(self, problem: Problem) -> None:
+        """Between drags: let the corrector make the pattern and the analysis of a new source before the first one."""
+        self._corrector.tend(problem)
 
     def moved(self) -> None:
         """Anchors, problem or map changed: there is something to do again."""

@@ -207,7 +207,6 @@ class EngineLoop:
             self._boundary_positions = start[self._boundary()].copy()
         self._problem = self._problem.with_anchors(self._all_anchors())
         self._state = replace(self._solver.init(self._problem, start), iteration=iteration)
-        self._hand.prepare(self._problem)
         self._rows = [history_row(self._problem, self._state, self._seconds)]
         self._hand.moved()
         self._begin_run()
@@ -371,8 +370,13 @@ class EngineLoop:
 
     @property
     def waits_for(self) -> list[Connection]:
-        """What else than a command can give `advance` something to do."""
+        """What else than a command can give `advance` or `tend` something to do."""
         return self._hand.waits_for
+
+    def tend(self) -> None:
+        """Housekeeping while there is no step to take."""
+        if self._problem is not None and not self.is_active:
+            self._hand.tend(self._problem)
 
     def _take_up(self, problem: Problem, solver: Solver, state: State, following: State) -> None:
         if following.status is Status.INTERRUPTED:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -11,41 +13,15 @@ from multiprocessing.connection import Connection, wait
 
 import numpy as np
 
+from workbench.engine.command_box import CommandBox
 from workbench.engine.loop import EngineLoop, MapReport
-from workbench.engine.messages import Command, Progress, Ready, Report, SetAnchors, Step
+from workbench.engine.messages import Progress, Ready, Report
 from workbench.engine.shared_positions import PositionRing
 
 PUBLISH_INTERVAL = 0.004
 """Seconds; quicker maps than this are not worth a message unless they are news of an anchor or of the end."""
 NAP = 0.010
 NOWHERE = np.empty((0, 2))
-
-
-class CommandBox:
-    """Commands that wait: of each class the newest, in order of arrival; step counts add up."""
-
-    def __init__(self) -> None:
-        self._waiting: dict[type[Command], Command] = {}
-
-    def put(self, command: Command) -> None:
-        kind = type(command)
-        earlier = self._waiting.pop(kind, None)
-        if isinstance(command, Step) and isinstance(earlier, Step):
-            command = Step(command.count + earlier.count)
-        self._waiting[kind] = command
-
-    def take_all(self) -> list[Command]:
-        commands = list(self._waiting.values())
-        self._waiting.clear()
-        return commands
-
-    def __bool__(self) -> bool:
-        return bool(self._waiting)
-
-    @property
-    def interrupts(self) -> bool:
-        """Whether something waits that a step gives way to; anchors do not interrupt a step."""
-        return any(kind is not SetAnchors for kind in self._waiting)
 
 
 class _Publisher:
@@ -93,6 +69,7 @@ def engine_main(connection: Connection, corrector: Connection, spawned_at: float
     from workbench.core.threads import set_thread_count
 
     keep_freed_memory()
+    threading.Thread(target=_end_with_parent, daemon=True).start()
     if threads:
         set_thread_count(threads)
     box = CommandBox()
@@ -114,15 +91,23 @@ def engine_main(connection: Connection, corrector: Connection, spawned_at: float
             drain()
             for command in box.take_all():
                 loop.handle(command)
-            if not loop.advance():
+            if not loop.advance() and not box:  # a step that fails may have drained a command first
                 publisher.flush()
-                others = loop.waits_for if loop.is_active else []
-                wait([connection, *others], NAP if loop.is_active else None)
+                loop.tend()
+                wait([connection, *loop.waits_for], NAP if loop.is_active else None)
     except (EOFError, BrokenPipeError, ConnectionResetError):
         pass
     finally:
         connection.close()
         os._exit(0)  # threads of a plugin or of BLAS shall not keep the process
+
+
+def _end_with_parent() -> None:
+    """A step that hangs never sees that the pipe is broken; this does."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def warm_up(tell: Callable[[], None]) -> None:

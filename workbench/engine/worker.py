@@ -15,8 +15,11 @@ from typing import Any
 
 import numpy as np
 
+from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements
-from workbench.engine.corrector import corrector_main
+from workbench.engine.command_box import CommandBox
+from workbench.engine.command_sender import CommandSender
+from workbench.engine.corrector import SMALLEST, corrector_main
 from workbench.engine.live import LiveColours
 from workbench.engine.loop import MapReport
 from workbench.engine.messages import (
@@ -38,13 +41,15 @@ from workbench.engine.messages import (
     Snapshot,
     Step,
 )
-from workbench.engine.process import CommandBox, engine_main
+from workbench.engine.process import engine_main
 from workbench.engine.shared_positions import PositionRing
 
 QUIT_PATIENCE = 0.5
 """Seconds that a child has to leave by itself when the window closes."""
 CRASHES_IN_A_ROW = 3
-"""Deaths without a map in between after which the worker stops restarting and says so."""
+"""Deaths after which a new process is given the default methods, and does not run; after twice as many there is no new one."""
+STEADY = 10.0
+"""Seconds after which a process that publishes maps counts as sound again."""
 
 
 class EngineWorker:
@@ -73,16 +78,21 @@ class EngineWorker:
         self._snapshot: Snapshot | None = None
         self._bell, self._rope = multiprocessing.Pipe(duplex=False)
         self._stop_asked = False
+        self._stopped: list[Command] = []
         self._closing = False
         self._thread = threading.Thread(target=self._main, name="engine-worker", daemon=True)
         # What the thread alone touches:
         self._process: Any = None
         self._corrector: Any = None
+        self._correctors_end: Connection | None = None
         self._connection: Connection | None = None
+        self._sender: CommandSender | None = None
+        self._spawned_at = 0.0
         self._ring: PositionRing | None = None
         self._colours: LiveColours | None = None
         self._loaded: Loaded | None = None
         self._loading: Load | None = None
+        self._loaded_by: Load | None = None
         self._last_map: MapReport | None = None
         self._settings: dict[type[Command], Command] = {}
         self._running: Run | None = None
@@ -114,7 +124,7 @@ class EngineWorker:
         """End whatever the engine does, a step that hangs included: the child is killed and restarted on the last good map."""
         with self._lock:
             self._stop_asked = True
-            self._outbox.take_all()
+            self._stopped += self._outbox.take_all()
         self._ring_bell()
 
     def close(self) -> None:
@@ -167,7 +177,10 @@ class EngineWorker:
                 self._bell.recv_bytes()
         with self._lock:
             stop_asked, self._stop_asked = self._stop_asked, False
+            stopped, self._stopped = self._stopped, []
         if stop_asked and not self._closing:
+            for command in stopped:  # choices stay choices, though what was asked for is not done
+                self._remember(command)
             self._restart("Stopped: the engine was restarted on the last good map.", resume=False)
             return
         if self._connection in ready and not self._receive():
@@ -183,12 +196,12 @@ class EngineWorker:
             commands = self._outbox.take_all()
         for command in commands:
             self._remember(command)
-            self._send(command)
+        if commands:
+            self._send(*commands)
 
-    def _send(self, command: Command) -> None:
-        assert self._connection is not None
-        with contextlib.suppress(OSError):  # a dead child shows up at its sentinel
-            self._connection.send(command)
+    def _send(self, *commands: Command) -> None:
+        assert self._sender is not None
+        self._sender.send(list(commands))
 
     def _remember(self, command: Command) -> None:
         """Keep what a new process must be told to go on like the old one."""
@@ -200,8 +213,6 @@ class EngineWorker:
             self._running = None
         elif isinstance(command, Load):
             self._loading = command
-            self._running = None
-            self._settings.pop(SetAnchors, None)
 
     # ------------------------------------------------------------------------------------------ reports
 
@@ -237,8 +248,11 @@ class EngineWorker:
 
     def _take_report(self, report: Report) -> None:
         if isinstance(report, Loaded):
-            self._loaded, self._loading, self._last_map = report, None, None
+            self._loaded, self._loaded_by, self._last_map = report, self._loading, None
+            self._loading, self._running = None, None
+            self._settings.pop(SetAnchors, None)
             self._colours = LiveColours(build_elements(report.mesh))
+            self._start_corrector()
             with self._lock:
                 self._snapshot = None
             self._unread_rows = ()
@@ -255,7 +269,8 @@ class EngineWorker:
             return  # overwritten meanwhile: a newer one is on its way
         positions.flags.writeable = False
         self._last_map = replace(report, positions=positions)
-        self._crashes = 0
+        if time.monotonic() - self._spawned_at > STEADY:
+            self._crashes = 0
         moving = report.phase in ("dragging", "running")
         live = self._colours.of(positions, inverted=report.inverted, moving=moving) if self._with_fields else None
         rows, self._unread_rows = self._unread_rows, ()
@@ -306,12 +321,23 @@ class EngineWorker:
                 daemon=True,
             )
             self._process.start()
+        for end in (theirs, engines):
+            end.close()
+        self._correctors_end = correctors
+        self._sender = CommandSender(self._connection)
+
+    def _start_corrector(self) -> None:
+        """The second process, once a mesh is large enough for it to help; a restart of the engine ends it."""
+        if self._correctors_end is None or self._loaded is None or self._loaded.mesh.simplex_count < SMALLEST:
+            return
+        with WithoutMainModule():
+            context = multiprocessing.get_context("spawn")
             self._corrector = context.Process(
-                target=corrector_main, args=(correctors,), name="workbench-corrector", daemon=True
+                target=corrector_main, args=(self._correctors_end,), name="workbench-corrector", daemon=True
             )
             self._corrector.start()
-        for end in (theirs, engines, correctors):
-            end.close()
+        self._correctors_end.close()
+        self._correctors_end = None
 
     def _crashed(self) -> None:
         self._crashes += 1
@@ -320,8 +346,10 @@ class EngineWorker:
             load, self._loading = self._loading, None
             sentence = f"Reading {load.source} ended the engine process ({_how(code)}); the file may be too large or damaged."
             self._report(Refused(load.generation, "Load", sentence))
+        if self._crashes > 2 * CRASHES_IN_A_ROW:
+            raise WorkbenchError(f"its process ended {self._crashes} times in a row ({_how(code)})")
         if self._crashes > CRASHES_IN_A_ROW:
-            self._settings.pop(SetSolver, None)
+            self._settings.clear()
             self._running = None
         sentence = f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map."
         self._restart(sentence, resume=True)
@@ -335,7 +363,8 @@ class EngineWorker:
             self._running = None
         self._report(Restarted(sentence))
         self._spawn()
-        for kind in (SetProblem, SetSolver):
+        self._start_corrector()
+        for kind in (SetProblem, SetSolver, Reset):
             if kind in self._settings:
                 self._send(self._settings[kind])
         if self._loaded is not None and self._last_map is not None:
@@ -346,8 +375,8 @@ class EngineWorker:
                 self._send(self._settings[SetAnchors])
             if self._running is not None:
                 self._send(self._running)
-        elif self._loaded is not None:
-            self._send(Load(self._loaded.source, self._loaded.generation, self._loaded.kind, self._loaded.fixes))
+        elif self._loaded_by is not None:
+            self._send(self._loaded_by)
 
     def _end_process(self, *, kill: bool = False) -> None:
         process, self._process = self._process, None
@@ -356,11 +385,17 @@ class EngineWorker:
             corrector.kill()
             corrector.join(timeout=5.0)
             corrector.close()
+        if self._correctors_end is not None:
+            self._correctors_end.close()
+            self._correctors_end = None
         if process is None:
             return
         if not kill:
             self._send(Quit())
             process.join(timeout=QUIT_PATIENCE)
+        if self._sender is not None:
+            self._sender.close()
+            self._sender = None
         if process.is_alive():
             process.kill()
         process.join(timeout=5.0)
@@ -387,10 +422,9 @@ class WithoutMainModule:
         import sys
 
         self._module = sys.modules["__main__"]
-        self._saved = {k: getattr(self._module, k, None) for k in ("__file__", "__spec__")}
+        self._saved = {key: getattr(self._module, key) for key in ("__file__", "__spec__") if hasattr(self._module, key)}
         for key in self._saved:
-            if hasattr(self._module, key):
-                setattr(self._module, key, None)
+            setattr(self._module, key, None)
 
     def __exit__(self, *details: object) -> None:
         for key, value in self._saved.items():
