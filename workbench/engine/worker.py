@@ -325,6 +325,7 @@ class EngineWorker:
             end.close()
         self._correctors_end = correctors
         self._sender = CommandSender(self._connection)
+        self._spawned_at = time.monotonic()
 
     def _start_corrector(self) -> None:
         """The second process, once a mesh is large enough for it to help; a restart of the engine ends it."""
@@ -349,7 +350,8 @@ class EngineWorker:
         if self._crashes > 2 * CRASHES_IN_A_ROW:
             raise WorkbenchError(f"its process ended {self._crashes} times in a row ({_how(code)})")
         if self._crashes > CRASHES_IN_A_ROW:
-            self._settings.clear()
+            for kind in (SetProblem, SetSolver, Reset):
+                self._settings.pop(kind, None)
             self._running = None
         sentence = f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map."
         self._restart(sentence, resume=True)
