@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 import signal
+import time
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
@@ -29,6 +30,8 @@ CHORDS = 3
 """Corrections with one factor before a fresh one is made."""
 GREETING, PREPARATION = ("greeting",), ("preparation",)
 """What is waited for beside corrections: only one message is ever under way, so that no two large ones can meet."""
+LONG = 0.04
+"""Seconds of waiting for a correction after which the engine makes room with what it has."""
 SMALLEST = 4000
 """Simplices below which a step of the engine itself is quicker than the way to another process."""
 
@@ -72,6 +75,7 @@ class CorrectorClient:
         self._elements: Elements | None = None
         self._asked: tuple[Any, ...] | None = GREETING  # the other process says when it is there
         self._asked_fresh = False
+        self._asked_at = 0.0
         self._chords = CHORDS
         self._response: tuple[tuple[Any, ...], Integers, Floats] | None = None
 
@@ -87,7 +91,12 @@ class CorrectorClient:
 
     def serves(self, problem: Problem, state: State) -> bool:
         """Whether this problem can be corrected elsewhere, and is worth it; not where a whole group of anchors moves."""
-        return self._takes(problem) and len(_moved(problem, state)) <= PREDICTED_ANCHORS
+        if not self._takes(problem) or len(_moved(problem, state)) > PREDICTED_ANCHORS:
+            return False
+        if self._asked in (GREETING, PREPARATION):
+            self.poll(problem)
+        self.prepare(problem)
+        return self._asked not in (GREETING, PREPARATION)
 
     def _takes(self, problem: Problem) -> bool:
         return (
@@ -99,9 +108,12 @@ class CorrectorClient:
         )
 
     @property
-    def is_refactoring(self) -> bool:
-        """Whether the request under way takes a factorisation: long, on a large mesh."""
-        return self._asked is not None and self._asked_fresh
+    def waited(self) -> float:
+        """Seconds since the request under way was sent, 0 without one; at least `LONG` where it takes a factorisation."""
+        if self._asked is None:
+            return 0.0
+        waited = time.perf_counter() - self._asked_at
+        return max(waited, LONG) if self._asked_fresh else waited
 
     def prepare(self, problem: Problem) -> None:
         """Let the other side make its pattern and symbolic analysis before they are needed."""
@@ -131,7 +143,7 @@ class CorrectorClient:
                 _Request(key, problem.distortion, state.positions, hard, moved, fresh or self._chords >= CHORDS)
             )
             self._asked = key
-            self._asked_fresh = fresh or self._chords >= CHORDS
+            self._asked_fresh, self._asked_at = fresh or self._chords >= CHORDS, time.perf_counter()
             self._chords = 0 if self._asked_fresh else self._chords + 1
         except OSError:
             self._connection = None

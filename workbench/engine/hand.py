@@ -17,10 +17,12 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.problem import Problem
 from workbench.core.state import State
 from workbench.core.threads import one_thread
-from workbench.engine.corrector import CorrectorClient
+from workbench.engine.corrector import LONG, CorrectorClient
 
 POOR_CORRECTION = 0.25
 """Part of a correction below which the next one is asked with a fresh factor."""
+TOO_LONG = 0.5
+"""Seconds of waiting for a first correction after which the engine factorises by itself."""
 
 
 class HandFollower:
@@ -87,6 +89,9 @@ class HandFollower:
         # After a step that an inversion bounded, another one of its kind would only press the map harder against it.
         was_bounded = state.approach.predicted and state.step_size < 1.0
         predicted = None if was_bounded else predict_with_response(problem, state, self._pending, response)
-        if predicted is None and has_factor and corrector.is_refactoring:
-            return correct_with_last_factor(problem, state, self._pending, renewal="never")
+        if predicted is None and corrector.waited >= LONG:
+            if has_factor:
+                return correct_with_last_factor(problem, state, self._pending, renewal="never")
+            if corrector.waited >= TOO_LONG:  # the other process gets no processor: better slow than not at all
+                return approach_anchors(problem, state, self._pending, renewal="rationed")
         return predicted

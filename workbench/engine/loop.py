@@ -14,6 +14,7 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
+from workbench.core.guarded_step import checked, guarded_step
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.problem import Criteria, Problem
@@ -117,7 +118,7 @@ class EngineLoop:
             self._publish(
                 Refused(self._generation_of(command), type(command).__name__, error.sentence, error.fixes, _lines_of(error))
             )
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             self._fail(f"{type(command).__name__} failed: {type(error).__name__}: {error}", traceback.format_exc())
 
     def _generation_of(self, command: Command) -> int:
@@ -347,10 +348,8 @@ class EngineLoop:
             following = self._step(problem, state, solver)
         except Exception as error:
             self._running, self._steps_left = False, 0
-            self._fail(
-                f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}",
-                traceback.format_exc(),
-            )
+            step = f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}"
+            self._fail(error.sentence if isinstance(error, WorkbenchError) else step, traceback.format_exc())
             self.publish_map()
             return False
         if following is None:
@@ -365,8 +364,9 @@ class EngineLoop:
     def _step(self, problem: Problem, state: State, solver: Solver) -> State | None:
         hand_moves = self._is_dragging and time.perf_counter() - self._last_anchor_command < HAND_RESTS
         if hand_moves and self._running:
-            return self._hand.step(problem, state)
-        return solver.step(problem, state, self._pending)
+            following = self._hand.step(problem, state)
+            return None if following is None else checked(solver, problem, state, following)
+        return guarded_step(solver, problem, state, self._pending)
 
     @property
     def waits_for(self) -> list[Connection]:
@@ -381,14 +381,6 @@ class EngineLoop:
     def _take_up(self, problem: Problem, solver: Solver, state: State, following: State) -> None:
         if following.status is Status.INTERRUPTED:
             self._state = replace(following, status=Status.RUNNING)
-            return
-        if not np.isfinite(following.positions).all():
-            following = replace(state, status=Status.NONFINITE)
-        elif state.inverted == 0 and problem.forbids_inversions and problem.inverted(following.positions):
-            # A solver that breaks the law (a plugin, say) is stopped on the last good map.
-            self._running, self._steps_left = False, 0
-            self._fail(f"{solver.label} made a map with inverted simplices; the last good map is kept.", "")
-            self.publish_map()
             return
         hand = self._is_dragging and following.status is Status.RUNNING
         status = following.status if hand and problem.anchors_lag(following.positions) else solver.terminate(problem, following)

@@ -41,6 +41,7 @@ from workbench.engine.messages import (
     Snapshot,
     Step,
 )
+from workbench.engine.priority import gives_way
 from workbench.engine.process import engine_main
 from workbench.engine.shared_positions import PositionRing
 
@@ -62,14 +63,17 @@ class EngineWorker:
         threads: int = 0,
         on_snapshot: Callable[[Snapshot], None] | None = None,
         with_fields: bool = True,
+        gives_way: bool = False,
     ) -> None:
         """`wake` is called on the worker's thread when reports wait.
 
         `on_snapshot` (tests, benchmarks) is told every map that is read, on the worker's thread; `with_fields` false leaves
-        out the colour fields and the histogram; `threads` is the kernels' thread count in the child, 0 for its default.
+        out the colour fields and the histogram; `threads` is the kernels' thread count in the child, 0 for its default;
+        `gives_way` runs the children at low priority, for a window that draws beside them.
         """
         self._wake = wake
         self._threads = threads
+        self._gives_way = gives_way
         self._on_snapshot = on_snapshot
         self._with_fields = with_fields
         self._lock = threading.Lock()
@@ -315,8 +319,8 @@ class EngineWorker:
         engines, correctors = context.Pipe(duplex=True)
         with WithoutMainModule():
             self._process = context.Process(
-                target=engine_main,
-                args=(theirs, engines, time.time(), self._threads),
+                target=gives_way if self._gives_way else engine_main,
+                args=(engine_main,) * self._gives_way + (theirs, engines, time.time(), self._threads),
                 name="workbench-engine",
                 daemon=True,
             )
@@ -334,7 +338,10 @@ class EngineWorker:
         with WithoutMainModule():
             context = multiprocessing.get_context("spawn")
             self._corrector = context.Process(
-                target=corrector_main, args=(self._correctors_end,), name="workbench-corrector", daemon=True
+                target=gives_way if self._gives_way else corrector_main,
+                args=(corrector_main,) * self._gives_way + (self._correctors_end,),
+                name="workbench-corrector",
+                daemon=True,
             )
             self._corrector.start()
         self._correctors_end.close()
