@@ -35,7 +35,7 @@ from workbench.engine.messages import (
     Snapshot,
     Step,
 )
-from workbench.engine.worker import EngineWorker
+from workbench.engine.worker import CRASHES_IN_A_ROW, EngineWorker
 
 PATIENCE = 60.0
 
@@ -351,3 +351,29 @@ def test_stop_ends_a_hang_however_many_commands_wait(desk: Desk, case: str, own_
         time.sleep(0.001)
     desk.worker.stop()
     desk.until(lambda: bool(desk.told(Restarted)))
+
+
+DIES = '''
+import os
+from dataclasses import dataclass
+from workbench.api import Solver, never
+
+@dataclass(frozen=True)
+class Dying(Solver):
+    """Takes the process with it."""
+    id = "dying"
+    label = "Dying"
+
+    def step(self, problem, state, interrupt=never):
+        os._exit(3)
+'''
+
+
+def test_a_solver_that_always_kills_the_process_is_given_up(desk: Desk, case: str, own_plugins: Path) -> None:
+    (own_plugins / "dying.py").write_text(DIES)
+    first = desk.open(case)
+    desk.worker.post(SetSolver("dying"))
+    desk.worker.post(Run())
+    desk.until(lambda: len(desk.told(Restarted)) == CRASHES_IN_A_ROW + 1)
+    desk.until(lambda: desk.snapshots[-1].solver == "projected-newton" and desk.snapshots[-1].phase == "idle")
+    assert np.array_equal(desk.snapshots[-1].positions, first.positions)

@@ -88,7 +88,7 @@ def _start(opened: OpenedSource, initializer: str, parameters: Mapping[str, Any]
         return make_start(opened.mesh, opened.kind, initializer, parameters, file)
     except (WorkbenchError, MemoryError):
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         raise WorkbenchError(
             f"The initializer {initializer} failed ({type(error).__name__}: {error}); choose another with --init."
         ) from error
@@ -129,7 +129,7 @@ def _compile_kernels(problem: Problem, solver: Solver) -> None:
     n = problem.dimension
     corners = np.vstack([np.zeros(n), np.eye(n)])
     simplex = Mesh(corners, np.arange(n + 1)[None])
-    with suppress(Exception):  # whatever is wrong will be said of the real problem
+    with suppress(Exception, SystemExit):  # whatever is wrong will be said of the real problem
         small = Problem.create(simplex, "plane" if n == 2 else "volume", problem.distortion)
         solver.step(small, solver.init(small, corners * 1.25))
 

@@ -99,11 +99,12 @@ def _solve(
             on_row=on_row,
             on_state=on_state,
         )
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         if not states:
             raise WorkbenchError(f"{prepared.solver.label} failed at the start: {type(error).__name__}: {error}") from error
         seconds = {"total": time.perf_counter() - begin, **prepared.problem.workspace.all_seconds()}
-        sentence = f"{prepared.solver.label} failed in step {states[-1].iteration + 1}: {type(error).__name__}: {error}"
+        step = f"{prepared.solver.label} failed in step {states[-1].iteration + 1}: {type(error).__name__}: {error}"
+        sentence = error.sentence if isinstance(error, WorkbenchError) else step
         return RunResult(states[-1], states[0], tuple(rows), seconds), sentence
     return result, ""
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from workbench.core.arrays import Floats
+from workbench.core.guarded_step import guarded_step
 from workbench.core.problem import Criteria, Problem
 from workbench.core.solver import Interrupt, Solver, never
 from workbench.core.state import State
@@ -73,7 +74,7 @@ def run(
     interrupt : callable           true ends the run with the last accepted map and INTERRUPTED
     on_row, on_state : callable    told after the start and after each step
 
-    Raises nothing that is expected: a failure is the status of the state.
+    A failure is the status of the state. Raises `SolverFaultError` where the solver itself is at fault.
     """
     problem = problem.with_criteria(Criteria(tolerance, gradient_tolerance))
     begin = time.perf_counter()
@@ -94,15 +95,17 @@ def run(
         return interrupt() or time.perf_counter() - begin >= time_limit
 
     record()
+    taken = 0
     while state.status is Status.RUNNING:
-        if state.iteration >= iterations:
+        if taken >= iterations:
             state = replace(state, status=Status.MAX_ITERATIONS)
         elif time.perf_counter() - begin >= time_limit:
             state = replace(state, status=Status.TIME_LIMIT)
         elif interrupt():
             state = replace(state, status=Status.INTERRUPTED)
         else:
-            state = solver.step(problem, state, stop)
+            state = guarded_step(solver, problem, state, stop)
+            taken += 1
             moved = state.iteration > rows[-1].iteration
             if state.status is Status.INTERRUPTED and not interrupt():
                 state = replace(state, status=Status.TIME_LIMIT)

@@ -47,6 +47,10 @@ from workbench.engine.starts import adjusted_start, make_start
 HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
 
+NO_VOLUMES = (
+    ": volumes are solved from the command line for now (workbench solve FILE --out OUT); open a triangle mesh here."
+)
+
 
 @dataclass(frozen=True, eq=False)
 class MapReport(Report):
@@ -150,10 +154,14 @@ class EngineLoop:
             self.has_quit = True
 
     def _load(self, command: Load) -> None:
-        from workbench.io.opening import open_source
+        from workbench.io.opening import UnsuitableSourceError, open_source
 
         self._publish(Progress(f"Reading {command.source} …"))
         opened = open_source(command.source, kind=command.kind, fixes=command.fixes, tets=command.tets)
+        if opened.mesh.dimension == 3 and not command.volumes:
+            refusal = UnsuitableSourceError(f"{command.source} holds tetrahedra{NO_VOLUMES}")
+            refusal.lines = opened.lines
+            raise refusal
         self._generation = command.generation
         self._mesh, self._kind, self._file_start = opened.mesh, opened.kind, opened.start
         self._running, self._steps_left, self._anchors = False, 0, None
