@@ -111,9 +111,9 @@ class FakeWorker:
             return
         cut = np.array([[0, 1], [1, 2]]) if "closed" in source else np.empty((0, 2), np.int64)
         if "tets" in source:
-            corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-            mesh = Mesh(corners, np.array([[0, 1, 2, 3]]))
-            self._tell(Loaded(command.generation, mesh, "volume", ("1 tetrahedron",), cut, source))
+            assert not command.volumes
+            sentence = "tets holds tetrahedra: use the command line."
+            self._tell(Refused(command.generation, "Load", sentence, (), ("1 tetrahedron",)))
             return
         mesh = grid_mesh() if "grid" in source else bumpy_mesh()
         self._mesh, self._generation = mesh, command.generation

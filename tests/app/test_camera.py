@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from workbench.app.views.camera import ViewCamera, slanted_axes
+from workbench.app.views.camera import ViewCamera, axes_that_face, slanted_axes
 from workbench.app.views.picking import ScreenTriangles, nearest_pixel
 
 SIZE = (500, 400)
@@ -73,3 +73,19 @@ def test_over_the_background_the_reach_decides() -> None:
     assert screen.vertex_at((106, 4), reach=10, reach_inside=10) == 1
     assert screen.vertex_at((120, 4), reach=10, reach_inside=10) == -1
     assert nearest_pixel(np.empty((0, 2)), (0, 0), 10) == -1
+
+
+@pytest.mark.parametrize("normal", [[0.0, 0, 1], [0, 1, 0], [-1, 0, 0], [1, 2, -3]])
+def test_an_open_surface_is_looked_at_from_its_front(normal: list[float]) -> None:
+    right = np.cross(normal, [0.3, 0.5, 0.7])
+    corners = np.array([np.zeros(3), right, np.cross(normal, right)])
+    axes = axes_that_face(corners, np.array([[0, 1, 2]]))
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(axes) > 0
+    assert axes[2] @ normal > 0.8 * np.linalg.norm(normal)
+
+
+def test_a_surface_without_a_front_is_looked_at_from_a_corner() -> None:
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    closed = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    np.testing.assert_array_equal(axes_that_face(corners, closed), slanted_axes())

@@ -202,11 +202,15 @@ def test_a_refused_file_leaves_the_present_map_alive(window: MainWindow, qtbot: 
     qtbot.waitUntil(lambda: window.document.snapshot.number > before)
 
 
-def test_volumes_are_refused_with_a_sentence(window: MainWindow, qtbot: QtBot) -> None:
+def test_volumes_are_refused_with_a_sentence_and_the_mesh_before_stays(window: MainWindow, qtbot: QtBot) -> None:
+    before = window.document.mesh
     window.open("tets")
     qtbot.waitUntil(window.error_bar.isVisible)
     assert "command line" in window.error_bar.sentence.text()
-    assert window.document.mesh is None
+    assert window.document.mesh is before
+    number = window.document.snapshot.number
+    window.document.step()
+    qtbot.waitUntil(lambda: window.document.snapshot.number > number)
 
 
 def test_failures_show_their_traceback_in_the_details(window: MainWindow, qtbot: QtBot) -> None:

@@ -46,7 +46,6 @@ class Document(QObject):
     session_changed = Signal()
     opening = Signal(str)
     opened = Signal()
-    closed = Signal()
     anchors_changed = Signal()
     selection_changed = Signal()
     snapshot_taken = Signal()
@@ -114,7 +113,7 @@ class Document(QObject):
         self._runs_after_open = run
         self._bridge.post(self._problem(self._attempt))
         self._bridge.post(self._solver(self._attempt))
-        self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
+        self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes, volumes=False))
         self.opening.emit(source)
 
     def open_sample(self, id: str, *, run: bool = True) -> None:
@@ -157,16 +156,6 @@ class Document(QObject):
         self.session_changed.emit()
         self.anchors_changed.emit()
         self.history_restarted.emit()
-
-    def close_mesh(self) -> None:
-        """Show nothing: the mesh that came cannot be drawn."""
-        self._bridge.post(Pause())
-        self.loaded = None
-        self.snapshot = None
-        self.anchors = AnchorSet.none()
-        self._is_opening = False
-        self.wants_to_run = False
-        self.closed.emit()
 
     def _take_refused(self, report: Refused) -> None:
         if report.generation == self.generation or report.command != "Load":

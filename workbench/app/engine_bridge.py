@@ -37,7 +37,7 @@ def engine_worker(wake: Callable[[], None]) -> Worker:
     """The real one: solving runs in a process of its own."""
     from workbench.engine.worker import EngineWorker  # late: it is not needed for the first frame
 
-    return EngineWorker(wake)
+    return EngineWorker(wake, gives_way=True)
 
 
 class EngineBridge(QObject):

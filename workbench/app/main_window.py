@@ -171,7 +171,6 @@ class MainWindow(QMainWindow):
         self.target.style_chosen.connect(self.set_target_style)
         self.document.snapshot_taken.connect(self._extend_history)
         self.document.history_restarted.connect(self._restart_history)
-        self.document.closed.connect(self.histogram.clear)
 
     # ------------------------------------------------------------------------------------------ showing
 

@@ -82,10 +82,12 @@ def fill_recent(window: MainWindow, menu: QMenu) -> None:
 
 def fill_samples(window: MainWindow, menu: QMenu) -> None:
     """Meshes of our own generator."""
-    from workbench.core.samples import sample_ids
+    from workbench.core.samples import sample_ids, sample_kind
 
     menu.clear()
     for id in sample_ids():
+        if sample_kind(id) == "volume":
+            continue
         action = menu.addAction(source_name(f"sample:{id}"))
         action.triggered.connect(lambda _=False, i=id: window.document.open_sample(i))
 

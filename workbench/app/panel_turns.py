@@ -16,6 +16,8 @@ REST_FACTOR = 3.0
 COMING_TO_REST = 60
 """Milliseconds without a new map after which panels that are still behind are drawn on their own."""
 
+SOON = 1
+"""Milliseconds from a map of the main view to the panel's turn: the main view is painted first, by itself."""
 BETWEEN = 15
 """Milliseconds between panels that catch up."""
 
@@ -31,10 +33,9 @@ class Panel:
 
 
 class PanelTurns(QObject):
-    """With each picture of the main view one panel that is behind is drawn, in turn.
+    """After each picture of the main view one panel that is behind is drawn, in turn.
 
-    Putting a window together costs as much as drawing a view where there is no graphics card, so panels are drawn in
-    the same pass as the main view and not between two of its pictures.
+    A panel is drawn in a pass of its own: two short passes let the mouse and the timers in between.
     """
 
     def __init__(self) -> None:
@@ -43,6 +44,10 @@ class PanelTurns(QObject):
         self.is_drawing = True
         self._next = 0
         self._not_before = 0.0
+        self._soon = QTimer(self)
+        self._soon.setSingleShot(True)
+        self._soon.setInterval(SOON)
+        self._soon.timeout.connect(self._turn)
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.timeout.connect(self._catch_up)
@@ -52,11 +57,11 @@ class PanelTurns(QObject):
         self.panels.append(Panel(widget, draw, cost))
 
     def take_map(self) -> None:
-        """A newer map is drawn in the main view: all panels are behind, one of them comes along."""
+        """A newer map goes to the main view: all panels are behind, one of them follows it."""
         for panel in self.panels:
             panel.is_stale = True
-        if time.perf_counter() >= self._not_before:
-            self._turn()
+        if time.perf_counter() >= self._not_before and not self._soon.isActive():
+            self._soon.start()
         self._rest.start(COMING_TO_REST)
 
     def all_stale(self) -> None:
@@ -72,6 +77,7 @@ class PanelTurns(QObject):
             panel.draw()
 
     def stop(self) -> None:
+        self._soon.stop()
         self._rest.stop()
 
     def _catch_up(self) -> None:

@@ -55,15 +55,15 @@ class Presenter(QObject):
         self._late_marks.timeout.connect(self._draw_marks)
         turns.add(source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
-        document.closed.connect(self.clear)
         document.snapshot_taken.connect(self._show_snapshot)
         document.history_restarted.connect(self._start_again)
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
-        for colour_range in ranges.values():
-            colour_range.changed.connect(self._apply_target_style)
+        for id, colour_range in ranges.items():
+            colour_range.changed.connect(partial(self._range_changed, id))
+        self.clear()
 
     # ------------------------------------------------------------------------------------------ meshes
 
@@ -175,6 +175,10 @@ class Presenter(QObject):
     def set_target_style(self, style: str) -> None:
         self.target_style = style
         self._apply_target_style()
+
+    def _range_changed(self, id: str) -> None:
+        if id == self.target_style:
+            self._apply_target_style()
 
     def _apply_target_style(self) -> None:
         surface = self.target.surface

@@ -12,17 +12,21 @@ from workbench.core.arrays import Floats
 
 @dataclass(frozen=True)
 class Quantity:
-    """A field that snapshots carry: id in `Snapshot.fields`, words for the title, smallest possible value."""
+    """A field that snapshots carry: id in `Snapshot.fields`, words for the title, smallest possible value.
+
+    `least_span` is the narrowest range of colours: below it differences are not worth a colour.
+    """
 
     id: str
     label: str
     equation: str
     formula: str
     least: float
+    least_span: float = 0.1
 
 
 LIVE_QUANTITIES: tuple[Quantity, ...] = (
-    Quantity("dirichlet", "Dirichlet", "(25)", "σ₁² + σ₂²", 0.0),
+    Quantity("dirichlet", "Dirichlet", "(25)", "σ₁² + σ₂²", 0.0, least_span=5.0),
     Quantity("condition-number", "Condition number", "(29)", "σ₁ / σ₂", 1.0),
     Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0),
 )
@@ -75,7 +79,7 @@ class ColourRange(QObject):
         span = self.high - self.low
         if self._is_fresh or wanted > span or wanted < 0.15 * span:
             self._is_fresh = False
-            self.set_high(self.low + max(rounded_up(wanted), 0.1))
+            self.set_high(self.low + max(rounded_up(wanted), self.quantity.least_span))
 
     def set_high(self, high: float) -> None:
         if high != self.high and high > self.low:

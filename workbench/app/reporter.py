@@ -13,6 +13,7 @@ from workbench.app.actions import show_running
 from workbench.app.document import SAMPLE, is_sample
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.core.errors import WorkbenchError
+from workbench.core.samples import sample_label
 from workbench.engine.messages import Failure, Progress, Ready, Refused, Restarted
 
 if TYPE_CHECKING:
@@ -20,11 +21,6 @@ if TYPE_CHECKING:
 
 NUMBERS_INTERVAL = 150
 """Milliseconds between two sets of numbers in the status bar: faster ones cannot be read."""
-
-VOLUMES = (
-    "This mesh is made of tetrahedra: volumes are solved from the command line for now "
-    "(workbench solve FILE --out OUT). Open a triangle mesh here."
-)
 
 
 class Reporter(QObject):
@@ -129,12 +125,6 @@ class Reporter(QObject):
         window.progress.end()
         loaded = document.loaded
         assert loaded is not None
-        if loaded.mesh.dimension == 3:
-            window.error_bar.show_message(VOLUMES, details="\n".join(loaded.lines))
-            window.setWindowTitle("Distortion Workbench")
-            document.close_mesh()
-            window.status.say("Volumes are solved from the command line for now.")
-            return
         source = document.session.source
         if not is_sample(source):
             window.settings.remember_file(source)
@@ -229,7 +219,10 @@ class Reporter(QObject):
 def source_name(source: str) -> str:
     """What a person calls a source: the file's name, or the sample's."""
     if is_sample(source):
-        return source.removeprefix(SAMPLE).replace("-", " ").capitalize()
+        try:
+            return sample_label(source.removeprefix(SAMPLE))
+        except WorkbenchError:
+            return source.removeprefix(SAMPLE)
     return Path(source).name
 
 

@@ -25,7 +25,8 @@ class Load(Command):
     """Read a mesh and make it the source; the map becomes the start of the current choices.
 
     `source` is a path, or `sample:ID`; `fixes` are applied in their order; `kind` is `auto` or a `Kind`;
-    `generation` is chosen by the sender and comes back in every report that belongs to this mesh.
+    `generation` is chosen by the sender and comes back in every report that belongs to this mesh; without `volumes`
+    tetrahedra are refused, and what was there before stays.
     """
 
     source: str
@@ -33,6 +34,7 @@ class Load(Command):
     kind: str = "auto"
     fixes: tuple[str, ...] = ()
     tets: bool = False
+    volumes: bool = True
 
 
 @dataclass(frozen=True)

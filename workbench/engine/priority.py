@@ -9,12 +9,12 @@ from typing import Any
 NICENESS = 10
 
 
-def gives_way(body: Callable[..., None], *arguments: Any) -> None:
-    """Body of a child process at low priority, its threads included.
+def run_child(gives_way: bool, body: Callable[..., None], *arguments: Any) -> None:
+    """Body of a child process, where `gives_way` at low priority, its later threads included.
 
     Without a graphics card the window's pictures are drawn by the processor; where the solver holds all cores a picture
     of 25 k triangles takes three times as long. Systems without priorities of this kind (Windows) leave it as it is.
     """
-    if hasattr(os, "nice"):
+    if gives_way and hasattr(os, "nice"):
         os.nice(NICENESS)
     body(*arguments)

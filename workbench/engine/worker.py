@@ -41,7 +41,7 @@ from workbench.engine.messages import (
     Snapshot,
     Step,
 )
-from workbench.engine.priority import gives_way
+from workbench.engine.priority import run_child
 from workbench.engine.process import engine_main
 from workbench.engine.shared_positions import PositionRing
 
@@ -319,8 +319,8 @@ class EngineWorker:
         engines, correctors = context.Pipe(duplex=True)
         with WithoutMainModule():
             self._process = context.Process(
-                target=gives_way if self._gives_way else engine_main,
-                args=(engine_main,) * self._gives_way + (theirs, engines, time.time(), self._threads),
+                target=run_child,
+                args=(self._gives_way, engine_main, theirs, engines, time.time(), self._threads),
                 name="workbench-engine",
                 daemon=True,
             )
@@ -338,8 +338,8 @@ class EngineWorker:
         with WithoutMainModule():
             context = multiprocessing.get_context("spawn")
             self._corrector = context.Process(
-                target=gives_way if self._gives_way else corrector_main,
-                args=(corrector_main,) * self._gives_way + (self._correctors_end,),
+                target=run_child,
+                args=(self._gives_way, corrector_main, self._correctors_end),
                 name="workbench-corrector",
                 daemon=True,
             )

@@ -33,7 +33,8 @@ class ConvergenceDock(QDockWidget):
         self.logarithmic = QCheckBox("logarithmic", body)
         self.logarithmic.setChecked(True)
         self.logarithmic.toggled.connect(self._set_logarithmic)
-        bar.addWidget(QLabel("over", body))
+        bar.setSpacing(6)
+        bar.addWidget(QLabel("over ", body))
         bar.addWidget(self.abscissa)
         bar.addWidget(self.logarithmic)
         bar.addStretch(1)
@@ -81,6 +82,11 @@ class ConvergenceDock(QDockWidget):
             if self.logarithmic.isChecked() and name != "inverted":
                 good &= values > 0
             curve.setData(abscissa[good], values[good])
+        # one point alone has no width of its own
+        last = float(abscissa[-1]) if len(abscissa) else 0.0
+        least_width = 1.0 if self.abscissa.currentData() == "iteration" else 1e-3
+        for plot in self._plots:
+            plot.setXRange(float(abscissa[0]) if len(abscissa) else 0.0, max(last, least_width), padding=0.02)
         counts = self._history.column("inverted")
         most = float(counts.max()) if len(counts) else 0.0
         self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)

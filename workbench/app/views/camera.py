@@ -8,10 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 
 DISTANCE = 50.0
 """Distance of the eye from the focal point, in units of the display (meshes are drawn with diameter 1)."""
+
+FACING = 0.3
+"""Length of the summed normals, of the area, from which on a surface has a front."""
 
 Points = NDArray[np.floating[Any]]
 """(n, 3), single or double precision"""
@@ -117,8 +120,28 @@ class ViewCamera:
 
 def slanted_axes() -> Floats:
     """Axes for a first look at a surface in space: from above the front right corner, z upwards."""
-    towards = np.array([0.45, -0.8, 0.4])
-    towards /= np.linalg.norm(towards)
-    right = np.cross([0.0, 0.0, 1.0], towards)
+    return _axes(np.array([0.45, -0.8, 0.4]), np.array([0.0, 0.0, 1.0]))
+
+
+def axes_that_face(points: Points, triangles: Integers) -> Floats:
+    """Axes for a first look at an open surface: a little from the side of its mean normal, y upwards where that can be.
+
+    A surface that turns to all sides alike has no mean normal to speak of, and is looked at from a corner.
+    """
+    corners = np.asarray(points, dtype=np.float64)[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    mean, total = normals.sum(axis=0), np.linalg.norm(normals, axis=1).sum()
+    length = float(np.linalg.norm(mean))
+    if not length > FACING * total:
+        return slanted_axes()
+    upwards = np.array([0.0, 1.0, 0.0] if abs(mean[1]) < 0.9 * length else [0.0, 0.0, 1.0])
+    straight = _axes(mean, upwards)
+    return _axes(np.array([0.4, 0.25, 1.0]) @ straight, straight[1])
+
+
+def _axes(towards: Floats, upwards: Floats) -> Floats:
+    """Axes that look from `towards` with `upwards` as far up as it goes."""
+    towards = towards / np.linalg.norm(towards)
+    right = np.cross(upwards, towards)
     right /= np.linalg.norm(right)
     return np.array([right, np.cross(towards, right), towards])

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.theme import Theme
-from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, slanted_axes
+from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, axes_that_face
 from workbench.app.views.canvas import make_canvas
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.overlay import Overlay
@@ -58,7 +58,7 @@ class MeshView(QWidget):
         self.surface = Surface(geometry, self.theme, edges=edges)
         for actor in self.surface.actors:
             self._renderer.AddActor(actor)
-        self.camera = ViewCamera() if geometry.is_flat else ViewCamera(axes=slanted_axes())
+        self.camera = _first_look(geometry)
         self.fit()
         return self.surface
 
@@ -181,6 +181,10 @@ class MeshView(QWidget):
         if not self._is_closed:
             self._is_closed = True
             self.canvas.close_canvas()
+
+
+def _first_look(geometry: Geometry) -> ViewCamera:
+    return ViewCamera() if geometry.is_flat else ViewCamera(axes=axes_that_face(geometry.points, geometry.triangles))
 
 
 def box_corners(points: NDArray[np.float32]) -> Floats:

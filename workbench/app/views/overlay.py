@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 RADIUS = 6.5
 """Radius of an anchor's disc in pixels."""
 SMALL_RADIUS = 3.5
-MANY = 60
+MANY = 40
 """Number of anchors from which on their discs are small."""
 
 

@@ -112,6 +112,16 @@ def sample_ids() -> tuple[str, ...]:
     return tuple(_RECIPES)
 
 
+def sample_label(id: str) -> str:
+    """Name of a sample, without making it."""
+    return _recipe(id).label
+
+
+def sample_kind(id: str) -> Kind:
+    """Kind of map that a sample is meant for, without making it."""
+    return _recipe(id).kind
+
+
 @lru_cache(maxsize=16)
 def make_sample(id: str, triangles: int | None = None) -> Mesh:
     """A sample with about `triangles` triangles (tetrahedra), by default as many as suit it.
