@@ -99,6 +99,22 @@ def test_promises_of_size_are_not_believed(tmp_path: Path) -> None:
             read_mesh(tmp_path / name)
 
 
+def test_a_tag_or_count_out_of_all_proportion_is_refused_at_once(tmp_path: Path) -> None:
+    points = "1 0 0 0\n2 1 0 0\n{tag} 0 1 0\n"
+    texts = {
+        "tag.msh": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 {tag}\n2 1 0 3\n1\n2\n{tag}\n0 0 0\n1 0 0\n0 1 0\n"
+        "$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 {tag}\n$EndElements\n",
+        "tag2.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n" + points + "$EndNodes\n$Elements\n1\n"
+        "1 2 2 0 1 1 2 {tag}\n$EndElements\n",
+        "faces.ply": "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nelement face {tag}\nproperty list uchar int vertex_indices\nend_header\nabcdefghijkl",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text.format(tag=30_000_000_000))
+        with pytest.raises(MeshError, match=name):
+            read_mesh(tmp_path / name)
+
+
 def test_places_that_are_no_files(tmp_path: Path) -> None:
     folder = tmp_path / "folder.obj"
     folder.mkdir()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import io
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ import numpy as np
 from workbench.core.arrays import Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
+from workbench.io.memory_limit import limited_memory
 from workbench.io.mesh_file import mesh_of_file
 from workbench.io.polygons import fan
 
@@ -38,15 +40,18 @@ IGNORED_CELLS = ("vertex", "line", "line3")
 def read_foreign(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
     """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes."""
     module, name = FORMATS[path.suffix.lower()]
-    if name == "PLY" and b"end_header" not in data:  # meshio would look for it for ever
-        raise MeshError(f"{path}: its header has no end, so it is no PLY file, or one that is cut short.")
-    with silenced(), np.errstate(all="ignore"):
+    if name == "PLY":
+        _check_ply_counts(path, data)
+    content: Any = None
+    with silenced(), np.errstate(all="ignore"), limited_memory(len(data)):
         try:
             content = importlib.import_module(f"meshio.{module}").read(str(path))
             points = np.asarray(content.points)
             blocks = [(str(block.type), block.data) for block in content.cells]
+        except MemoryError:
+            raise MeshError(f"{path}: it asks for far more memory than its size warrants; a number in it is damaged.") from None
         except (Exception, SystemExit):
-            content = None
+            pass
     if content is None:
         raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
     if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
@@ -59,6 +64,16 @@ def read_foreign(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
         notes = (f"Only the tetrahedra were taken; left out: {', '.join(left_out)}.",) if left_out else ()
         return mesh_of_file(path, points, simplices), notes
     return _surface(path, points, [(kind, data) for kind, data in blocks if kind in FLAT_CELLS and len(data)])
+
+
+def _check_ply_counts(path: Path, data: bytes) -> None:
+    """meshio looks for the end of the header, and for as many elements as are promised, however long that takes."""
+    header, end, body = data.partition(b"end_header")
+    if not end:
+        raise MeshError(f"{path}: its header has no end, so it is no PLY file, or one that is cut short.")
+    for count in re.findall(rb"^element\s+\S+\s+(\d+)", header, re.MULTILINE):
+        if int(count[:20]) > len(body):
+            raise MeshError(f"{path}: it promises {count[:20].decode()} elements, more than it has bytes; it is cut short.")
 
 
 @contextlib.contextmanager
