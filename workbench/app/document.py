@@ -70,6 +70,7 @@ class Document(QObject):
         self._runs_after_open = False
         self._before: dict[str, dict[str, Any]] = {}
         self._is_opening = False
+        self._has_finished = False
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
@@ -95,6 +96,11 @@ class Document(QObject):
     def is_running(self) -> bool:
         """Whether the user wants the solver to run; it may have finished meanwhile."""
         return self.wants_to_run
+
+    @property
+    def is_at_work(self) -> bool:
+        """Whether the solver runs, or is about to, and has not said that it is done."""
+        return self.wants_to_run and not self._has_finished
 
     # ------------------------------------------------------------------------------------------ opening
 
@@ -180,6 +186,7 @@ class Document(QObject):
         if self.loaded is None or mesh is None or snapshot.generation != self.loaded.generation:
             return
         self.snapshot = snapshot
+        self._has_finished = snapshot.phase == "finished"
         self.snapshot_taken.emit()
         if self._is_opening:
             self._is_opening = False
@@ -239,7 +246,7 @@ class Document(QObject):
         if self.mesh is None:
             return
         session = self.session
-        self.wants_to_run = True
+        self.wants_to_run, self._has_finished = True, False
         self._bridge.post(Run(session.iterations, session.tolerance, session.time_limit))
         self.session_changed.emit()
 
@@ -250,8 +257,7 @@ class Document(QObject):
 
     def toggle(self) -> None:
         """Space: run where it rests or has finished, else pause."""
-        has_finished = self.snapshot is not None and self.snapshot.phase == "finished"
-        if self.wants_to_run and not has_finished:
+        if self.is_at_work:
             self.pause()
         else:
             self.run()

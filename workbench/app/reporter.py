@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +20,8 @@ from workbench.engine.messages import Failure, Progress, Ready, Refused, Restart
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
+LONG_STEP = 2.0
+"""Seconds without a map after which a solver at work is called slow, with the way out."""
 NUMBERS_INTERVAL = 150
 """Milliseconds between two sets of numbers in the status bar: faster ones cannot be read."""
 
@@ -36,6 +39,7 @@ class Reporter(QObject):
         self._last_iteration = -1
         self._drawn_serial = 0
         self._said = ""
+        self._last_news = time.monotonic()
         self._timer = QTimer(self)
         self._timer.setInterval(NUMBERS_INTERVAL)
         self._timer.timeout.connect(self.show_numbers)
@@ -86,6 +90,8 @@ class Reporter(QObject):
     def _restarted(self, report: Restarted) -> None:
         self._window.progress.end()
         self._window.error_bar.show_message(report.sentence)
+        self._window.status.say("The engine is starting again.")
+        self._said = ""
 
     def _refused(self, report: Refused) -> None:
         self._window.progress.end()
@@ -148,6 +154,7 @@ class Reporter(QObject):
         assert snapshot is not None
         if not self._document.opening_source:
             self._window.progress.end()
+        self._last_news = time.monotonic()
         iteration = snapshot.row.iteration
         if self._last_iteration >= 0 and iteration > self._last_iteration:
             self.rate_meter.take(iteration - self._last_iteration)
@@ -185,9 +192,11 @@ class Reporter(QObject):
             status.show_field("state", "" if self._is_ready else "starting")
             self._window.target.caption.setText("")
             return
+        self._say_that_it_lasts()
         row = snapshot.row
         is_moving = snapshot.phase in ("running", "dragging")
-        status.show_field("state", snapshot.phase)
+        is_stale = self._document.is_at_work and snapshot.phase in ("idle", "finished")
+        status.show_field("state", "running" if is_stale else snapshot.phase)
         status.show_field("iteration", f"iteration {row.iteration}")
         status.show_field("rate", f"{self.rate_meter.rate():.0f} it/s" if is_moving else "")
         status.show_number("mean", row.mean_distortion, "mean D {:.5g}")
@@ -196,6 +205,16 @@ class Reporter(QObject):
         status.show_field("delay", f"drag {delay:.0f} ms" if delay is not None else "")
         count = len(self._document.anchors)
         self._window.target.caption.setText(f"{count} anchor{'s' * (count != 1)}" if count else "no anchors")
+
+    def _say_that_it_lasts(self) -> None:
+        """A step that takes seconds may be hard work or a loop without end: the user knows better."""
+        if not self._document.is_at_work:
+            self._last_news = time.monotonic()
+            return
+        seconds = time.monotonic() - self._last_news
+        if seconds >= LONG_STEP and not self._document.opening_source:
+            self._said = ""
+            self._window.status.say(f"The solver has been at one step for {seconds:.0f} s. Stop ends it if it hangs.")
 
     def _picture_sent(self, serial: int) -> None:
         self._drawn_serial = serial
@@ -208,10 +227,8 @@ class Reporter(QObject):
     def show_running(self) -> None:
         """Run or Pause, and what can be done at all."""
         window, document = self._window, self._document
-        snapshot = document.snapshot
         has_mesh = document.mesh is not None
-        is_running = document.wants_to_run and not (snapshot is not None and snapshot.phase == "finished")
-        show_running(window.actions_by_name["run"], is_running, window.theme)
+        show_running(window.actions_by_name["run"], document.is_at_work, window.theme)
         for name in ("run", "step", "reset", "save", "pin", "clear", "fit"):
             window.actions_by_name[name].setEnabled(has_mesh)
 
