@@ -58,7 +58,7 @@ class Reporter(QObject):
         document.opened.connect(self._opened)
         document.snapshot_taken.connect(self._snapshot)
         document.session_changed.connect(self.show_running)
-        document.drag_sent.connect(self.drag_meter.sent)
+        document.drag_sent.connect(self._drag_sent)
         document.history_restarted.connect(self._restart_meters)
         window.error_bar.fix_wanted.connect(self._apply_fixes)
         window.progress.cancelled.connect(document.stop)
@@ -215,6 +215,12 @@ class Reporter(QObject):
         if seconds >= LONG_STEP and not self._document.opening_source:
             self._said = ""
             self._window.status.say(f"The solver has been at one step for {seconds:.0f} s. Stop ends it if it hangs.")
+
+    def _drag_sent(self, serial: int, at: float) -> None:
+        self.drag_meter.sent(serial, at)
+        if not self._document.wants_to_run:
+            self._said = ""
+            self._window.status.say("The solver is at rest: Run (Space) lets the map follow its anchors.")
 
     def _picture_sent(self, serial: int) -> None:
         self._drawn_serial = serial

@@ -116,7 +116,8 @@ class MeshView(QWidget):
     def fit_if_it_left(self, least: float = 0.45) -> None:
         """Fit once more where the map has grown out of a view whose camera nobody has touched, or shrunk in it.
 
-        `least` is the part of the view, in its tighter direction, below which the map counts as shrunk.
+        `least` is the part of the view, in its tighter direction, below which the map counts as shrunk; the larger it
+        is, the nearer to the middle the map has to be.
         """
         if not self._wants_fit or self.geometry_shown is None:
             return
@@ -124,7 +125,8 @@ class MeshView(QWidget):
         corners = self.project(box_corners(self.geometry_shown.points))
         (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
         has_left = left < 0 or top < 0 or right > width or bottom > height
-        if has_left or max((right - left) / width, (bottom - top) / height) < least:
+        off_centre = max(abs(left + right - width) / width, abs(top + bottom - height) / height)
+        if has_left or off_centre > 1.0 - least or max((right - left) / width, (bottom - top) / height) < least:
             self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:

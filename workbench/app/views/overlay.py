@@ -130,7 +130,7 @@ class Overlay(QWidget):
         # a simplex about to invert is often too thin to be seen: a ring says where it is
         middle = corners.mean(axis=0)
         painter.drawEllipse(QPointF(*middle), 13.0, 13.0)
-        self._label(painter, QPointF(middle[0] + 16, middle[1] - 10), scene.limiting_label)
+        self._label(painter, QPointF(middle[0] + 16, middle[1] + 36), scene.limiting_label)
 
     def _paint_anchors(self, painter: QPainter) -> None:
         scene = self.scene
