@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -17,6 +17,7 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.line_search import (
     largest_step,
+    largest_step_without_inversion,
     smallest_positive_root_cubic,
     smallest_positive_root_quadratic,
 )
@@ -29,6 +30,7 @@ coefficient = st.one_of(st.just(0.0), st.floats(-1e6, 1e6, allow_nan=False), st.
 
 
 @given(coefficient, coefficient, st.floats(1e-9, 1e6))
+@example(0.0, -1e-200, 1e-9)
 @settings(deadline=None)
 def test_quadratic_is_positive_before_its_first_root(a: float, b: float, c: float) -> None:
     root = smallest_positive_root_quadratic(a, b, c)
@@ -42,6 +44,7 @@ def test_quadratic_is_positive_before_its_first_root(a: float, b: float, c: floa
 
 
 @given(coefficient, coefficient, coefficient, st.floats(1e-9, 1e6))
+@example(0.0, 1.1205800351123752e-242, -1.0, 1.0)
 @settings(max_examples=300, deadline=None)
 def test_cubic_is_positive_before_its_first_root(a: float, b: float, c: float, d: float) -> None:
     root = smallest_positive_root_cubic(a, b, c, d)
@@ -166,3 +169,12 @@ def test_changing_anchors_keeps_the_symbolic_analysis() -> None:
 def test_anchors_that_make_no_sense_are_refused(arguments) -> None:
     with pytest.raises(WorkbenchError):
         Anchors(*arguments)
+
+
+@pytest.mark.parametrize("size", [1e-80, 1.0, 1e60])
+def test_the_largest_step_does_not_depend_on_the_scale(size: float) -> None:
+    triangle = size * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    lowered = size * np.array([[0.0, 0.0], [0.0, 0.0], [0.0, -2.0]])
+    assert largest_step_without_inversion(triangle, lowered, np.array([[0, 1, 2]])) == pytest.approx(0.5, rel=1e-12)
+    inwards = size * np.array([[0.0, 0.0], [-1.0, 1.0], [0.0, -2.0]])
+    assert largest_step_without_inversion(triangle, inwards, np.array([[0, 1, 2]])) == pytest.approx(0.5, rel=1e-12)

@@ -225,3 +225,14 @@ def test_a_bar_follows_its_end_round_a_half_turn() -> None:
     assert result.state.status is Status.CONVERGED
     assert result.state.anchor_error <= problem.anchor_tolerance
     assert (determinants(problem.elements, result.state.positions) > 0).all()
+
+
+@solvers
+def test_a_map_that_must_collapse_comes_close_and_never_inverts(id: str) -> None:
+    mesh = grid(6)
+    held = np.flatnonzero((mesh.vertices[:, 0] == 0.0) | (mesh.vertices[:, 0] == 1.0))
+    turned = np.where(mesh.vertices[held, :1] == 1.0, [2.0, 1.0] - mesh.vertices[held], mesh.vertices[held])
+    distortion = registry().distortions["average-singular-value"]
+    problem = Problem.create(mesh, "plane", distortion, Anchors(held, turned))
+    result = run(registry().solver(id)(), problem, mesh.vertices, iterations=150)
+    assert result.state.inverted == problem.inverted(result.state.positions) == 0

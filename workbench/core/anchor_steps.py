@@ -169,7 +169,8 @@ def apply_correction(problem: Problem, state: State, direction: Floats, gradient
         energy = problem.energy_and_inverted(x)[0]
         if problem.forbids_inversions:
             first = min(1.0, SAFETY * largest_step(x, direction, problem.elements.simplices)[0])
-        found = armijo(problem.energy_and_inverted, x, direction, energy, 0.0, first, lambda: False, trials=6)
+        most, search = problem.most_inverted(state.inverted), problem.energy_and_inverted
+        found = armijo(search, x, direction, energy, 0.0, first, lambda: False, trials=6, most_inverted=most)
     return replace(
         state,
         positions=found.positions,
@@ -284,7 +285,8 @@ def _relax(problem: Problem, state: State, energy: float, gradient: Floats, inte
     if problem.forbids_inversions:
         first = min(1.0, SAFETY * largest_step(x, direction, problem.elements.simplices)[0])
     with problem.workspace.timed("line_search"):
-        found = armijo(problem.energy_and_inverted, x, direction, energy, slope, first, interrupt)
+        most = problem.most_inverted(state.inverted)
+        found = armijo(problem.energy_and_inverted, x, direction, energy, slope, first, interrupt, most_inverted=most)
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     relaxed = found.size == 0.0 or energy - found.energy <= 1e-3 * abs(energy)
@@ -295,6 +297,7 @@ def _relax(problem: Problem, state: State, energy: float, gradient: Floats, inte
         energy=found.energy,
         gradient_norm=problem.free_gradient_norm(gradient),
         step_size=found.size,
+        inverted=found.inverted if found.size else state.inverted,
         anchor_error=problem.anchor_error(found.positions),
         status=Status.RUNNING,
         previous_energy=float("nan"),

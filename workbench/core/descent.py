@@ -74,7 +74,8 @@ def descend(
             if safety * bound < first:
                 first, limiting = safety * bound, simplex
         search = problem.energy_and_inverted
-        found = armijo(search, x, direction, energy, slope, first, interrupt, furthest=furthest)
+        most = problem.most_inverted(state.inverted)
+        found = armijo(search, x, direction, energy, slope, first, interrupt, furthest=furthest, most_inverted=most)
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     if found.size == 0.0:

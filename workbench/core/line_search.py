@@ -71,6 +71,7 @@ def armijo(
     shrink: float = 0.5,
     trials: int = 60,
     furthest: float = 0.0,
+    most_inverted: float = math.inf,
 ) -> Step:
     """Backtracking from the step `first` until E(x + t d) <= E(x) + sufficient t slope.
 
@@ -82,6 +83,8 @@ def armijo(
     interrupt : callable   asked before every trial; true ends the search with the old positions
     furthest : float       where the first trial is accepted, a longer step, up to this one, is tried at the minimum of the
                            parabola through what is known: a projected Hessian is too stiff, and a trial is cheap beside it
+    most_inverted : float  inverted simplices that a trial may have: close to a collapse, rounding can invert one before the
+                           largest step is reached, and a distortion without a barrier does not mind
 
     Source: Nocedal & Wright 2006, section 3.1.
     """
@@ -91,7 +94,8 @@ def armijo(
             return Step(positions, 0.0, energy, 0, trial - 1, interrupted=True)
         candidate = positions + size * direction
         value, inverted = evaluate(candidate)
-        if value <= energy + sufficient * size * slope and math.isfinite(value):
+        is_lower = value <= energy + sufficient * size * slope and math.isfinite(value)
+        if is_lower and inverted <= most_inverted:
             found = Step(candidate, size, value, inverted, trial)
             if trial > 1 or furthest <= size:
                 return found
@@ -124,6 +128,10 @@ def _extrapolated(
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def smallest_positive_root_quadratic(a, b, c):  # type: ignore[no-untyped-def]
     """Smallest t > 0 with a t^2 + b t + c = 0 for c > 0; inf where there is none. Never divides by a vanishing leading term."""
+    scale = max(abs(a), abs(b), c)
+    a, b, c = a / scale, b / scale, c / scale  # squares of tiny coefficients vanish
+    if a == 0.0:
+        return -c / b if b < 0.0 else math.inf
     discriminant = b * b - 4.0 * a * c
     if discriminant < 0.0:
         return math.inf
@@ -133,7 +141,7 @@ def smallest_positive_root_quadratic(a, b, c):  # type: ignore[no-untyped-def]
     best = math.inf
     if q != 0.0 and c / q > 0.0:
         best = c / q
-    if a != 0.0 and q / a > 0.0 and q / a < best:
+    if q / a > 0.0 and q / a < best:
         best = q / a
     return best
 
@@ -192,14 +200,14 @@ def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def positive_roots_quadratic(a, b, c):  # type: ignore[no-untyped-def]
     """Both real roots of a t^2 + b t + c, -1 for those that are missing or not positive."""
-    if a == 0.0 and b == 0.0:
-        return -1.0, -1.0
+    if a == 0.0:  # apart, as the square of a tiny b vanishes
+        return -1.0, (-c / b if b != 0.0 and 0.0 < -c / b < math.inf else -1.0)
     discriminant = b * b - 4.0 * a * c
     if discriminant < 0.0:
         return -1.0, -1.0
     root = math.sqrt(discriminant)
     q = -0.5 * (b + root) if b >= 0.0 else -0.5 * (b - root)
-    r1 = q / a if a != 0.0 else -1.0
+    r1 = q / a
     r2 = c / q if q != 0.0 else -1.0
     if not 0.0 < r1 < math.inf:
         r1 = -1.0

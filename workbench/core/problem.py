@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -153,6 +154,10 @@ class Problem:
     def forbids_inversions(self) -> bool:
         """Whether a map without inverted simplices must stay so: always, unless inversions are allowed and finite."""
         return self.density.has_barrier or not self.density.allow_inversions
+
+    def most_inverted(self, inverted: int) -> float:
+        """Inverted simplices that a step may leave, from a map that has `inverted` of them."""
+        return 0.0 if inverted == 0 and self.forbids_inversions else math.inf
 
     # -------------------------------------------------------------------------------------- evaluation
 
