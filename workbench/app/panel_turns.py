@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, QTimer
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.views.mesh_view import MeshView
+
 LEAST_REST = 0.016
 """Seconds between two turns at least."""
 REST_FACTOR = 3.0
@@ -17,7 +19,7 @@ COMING_TO_REST = 60
 """Milliseconds without a new map after which panels that are still behind are drawn on their own."""
 
 SOON = 1
-"""Milliseconds from a map of the main view to the panel's turn: the main view is painted first, by itself."""
+"""Milliseconds from a picture of the main view to the panel's turn: the main view is painted first, by itself."""
 BETWEEN = 15
 """Milliseconds between panels that catch up."""
 
@@ -44,6 +46,7 @@ class PanelTurns(QObject):
         self.is_drawing = True
         self._next = 0
         self._not_before = 0.0
+        self._is_due = False
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
         self._soon.setInterval(SOON)
@@ -60,9 +63,14 @@ class PanelTurns(QObject):
         """A newer map goes to the main view: all panels are behind, one of them follows it."""
         for panel in self.panels:
             panel.is_stale = True
-        if time.perf_counter() >= self._not_before and not self._soon.isActive():
-            self._soon.start()
+        self._is_due = True
         self._rest.start(COMING_TO_REST)
+
+    def main_is_drawn(self) -> None:
+        """The main view was painted: now a panel may follow."""
+        if self._is_due and time.perf_counter() >= self._not_before:
+            self._is_due = False
+            self._soon.start()
 
     def all_stale(self) -> None:
         """Something but the map changed: draw all again when there is time."""
@@ -96,4 +104,6 @@ class PanelTurns(QObject):
                 self._not_before = time.perf_counter() + max(LEAST_REST, REST_FACTOR * panel.cost())
                 panel.is_stale = False
                 panel.draw()
+                if isinstance(panel.widget, MeshView):
+                    panel.widget.canvas.draw_now()
                 return

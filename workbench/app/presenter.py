@@ -53,6 +53,7 @@ class Presenter(QObject):
         self._late_marks.setSingleShot(True)
         self._late_marks.setInterval(MARKS_WAIT)
         self._late_marks.timeout.connect(self._draw_marks)
+        target.drawn.connect(turns.main_is_drawn)
         turns.add(source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
         document.snapshot_taken.connect(self._show_snapshot)
@@ -135,6 +136,8 @@ class Presenter(QObject):
         self._fits_next = False
         self.target.refresh()
         self._turns.take_map()
+        if not self.target.is_shown():
+            self._turns.main_is_drawn()  # there is nothing to wait for
         self.picture_sent.emit(snapshot.anchor_serial)
 
     def _paint_target(self) -> None:

@@ -9,8 +9,13 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QL
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.history import History
 from workbench.app.theme import Theme
+from workbench.core.arrays import Floats
 
 CURVES = (("energy", "Energy"), ("gradient_norm", "Gradient norm"), ("inverted", "Inverted simplices"))
+
+
+MOST_BINS = 300
+"""Of a curve; each keeps its least and its largest value."""
 
 
 class ConvergenceDock(QDockWidget):
@@ -53,8 +58,6 @@ class ConvergenceDock(QDockWidget):
             calm(plot, self)
             plot.showGrid(x=False, y=True, alpha=0.2)
             curve = plot.plot([], [])
-            curve.setDownsampling(auto=True, method="peak")
-            curve.setClipToView(True)
             self._plots.append(plot)
             self.curves.append(curve)
         self._set_logarithmic(True)
@@ -81,7 +84,7 @@ class ConvergenceDock(QDockWidget):
             good = np.isfinite(values)
             if self.logarithmic.isChecked() and name != "inverted":
                 good &= values > 0
-            curve.setData(abscissa[good], values[good])
+            curve.setData(*thinned(abscissa[good], values[good]))
         # one point alone has no width of its own
         last = float(abscissa[-1]) if len(abscissa) else 0.0
         least_width = 1.0 if self.abscissa.currentData() == "iteration" else 1e-3
@@ -92,3 +95,21 @@ class ConvergenceDock(QDockWidget):
         self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)
         # a count has no halves
         self._plots[2].getAxis("left").setTickSpacing(levels=[(1.0, 0.0)] if most < 4 else None)
+
+
+def thinned(abscissa: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """A curve (k,), (k,) with at most about two points a bin, its peaks kept.
+
+    pyqtgraph's own thinning works once more at every change of the visible range.
+    """
+    width = -(-len(values) // MOST_BINS)
+    if width <= 2:
+        return abscissa, values
+    whole = len(values) // width * width
+    bins = values[:whole].reshape(-1, width)
+    first = np.arange(0, whole, width)
+    ends = np.sort(np.stack([first + bins.argmin(axis=1), first + bins.argmax(axis=1)], axis=1), axis=1).ravel()
+    kept = np.concatenate([ends, np.arange(whole, len(values))])
+    if kept[-1] != len(values) - 1:
+        kept = np.append(kept, len(values) - 1)
+    return abscissa[kept], values[kept]

@@ -37,6 +37,7 @@ class Canvas(Protocol):
     seconds: float
 
     def draw_again(self) -> None: ...
+    def draw_now(self) -> None: ...
     def close_canvas(self) -> None: ...
 
 
@@ -62,6 +63,11 @@ class MemoryCanvas(QWidget):
     def draw_again(self) -> None:
         self._is_stale = True
         self.update()
+
+    def draw_now(self) -> None:
+        """What waits to be drawn, in a pass of its own."""
+        if self._is_stale:
+            self.repaint()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         ratio = self.devicePixelRatioF()
@@ -122,6 +128,9 @@ class CardCanvas(QWidget):
         # not `plotter.render`, which draws twice
         if not self._is_closed:
             self.plotter.update()
+
+    def draw_now(self) -> None:
+        """The card draws when it is its turn."""
 
     def close_canvas(self) -> None:
         if not self._is_closed:

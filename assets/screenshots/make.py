@@ -1,0 +1,77 @@
+"""The picture of the README: the window on its first sample in a lively pose, saved by the window's own screenshot.
+
+    xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark] [FILE.png]
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from workbench.app.main import make_application
+
+application = make_application()
+
+from PIL import Image  # noqa: E402
+from PySide6.QtTest import QTest  # noqa: E402
+
+from workbench.app.main_window import MainWindow  # noqa: E402
+from workbench.app.settings import Settings  # noqa: E402
+from workbench.app.theme import ThemeSwitch  # noqa: E402
+
+SIZE = (1500, 920)
+STEPS = 40
+POSE = ((0.06, 0.27), (-0.14, 0.10), (0.09, -0.01), (0.0, 0.0), (0.0, -0.26))
+"""Moves of the sample's anchors, sorted from left to right, in diameters: a dancer."""
+
+
+def main(theme: str = "light", file: str = "") -> None:
+    """Open, drag the anchors one by one, wait for the solver, save."""
+    path = Path(file) if file else Path(__file__).with_name("window.png")
+    with tempfile.TemporaryDirectory() as folder:
+        window = MainWindow(ThemeSwitch(application, theme), Settings(Path(folder) / "settings.ini"))
+        window.resize(*SIZE)
+        window.show()
+        window.start()
+        document = window.document
+        until(lambda: len(document.anchors) > 0 and not document.is_at_work)
+        window.set_target_style("symmetric-dirichlet")
+        window.source.view.surface.set_edges(False)  # a smaller file
+        diameter = document.mesh.diameter
+        places = document.positions[document.anchors.vertices]
+        for row, move in zip(places[:, 0].argsort(), POSE, strict=True):
+            vertex = int(document.anchors.vertices[row])
+            for step in range(1, STEPS + 1):
+                share = step / STEPS
+                target = places[row] + [diameter * share * move[0], diameter * share * move[1]]
+                document.move_anchor(vertex, target, step < STEPS)
+                QTest.qWait(16)
+            until(lambda: not document.is_at_work)
+        window.commands.fit()
+        window.turns.draw_all()
+        QTest.qWait(700)
+        window.commands.save_screenshot(window, str(path))
+        window.close()
+    smaller(path)
+
+
+def smaller(path: Path) -> None:
+    """256 colours are enough for a screen of few colours, and a third of the bytes."""
+    with Image.open(path) as picture:
+        reduced = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    reduced.save(path, optimize=True)
+
+
+def until(holds: Callable[[], bool], seconds: float = 60.0) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        if time.monotonic() > end:
+            raise TimeoutError("the engine did not answer")
+        QTest.qWait(20)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
