@@ -377,3 +377,11 @@ def test_a_solver_that_always_kills_the_process_is_given_up(desk: Desk, case: st
     desk.until(lambda: len(desk.told(Restarted)) == CRASHES_IN_A_ROW + 1)
     desk.until(lambda: desk.snapshots[-1].solver == "projected-newton" and desk.snapshots[-1].phase == "idle")
     assert np.array_equal(desk.snapshots[-1].positions, first.positions)
+
+
+def test_the_start_of_another_mesh_is_not_taken_over(desk: Desk, case: str, tmp_path: Path) -> None:
+    desk.open("sample:bumpy-disc")
+    desk.worker.post(Reset("lscm"))
+    desk.until(lambda: desk.snapshots[-1].number > 1)
+    desk.open(case, 2)
+    assert not desk.told(Refused)

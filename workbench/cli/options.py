@@ -77,7 +77,7 @@ def add_solve_options(parser: argparse.ArgumentParser) -> None:
     add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")
     add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")
     add("--tolerance", type=amount, default=1e-6, metavar="T", help="relative energy decrease (default: 1e-6)")
-    add("--gradient-tolerance", type=amount, metavar="T", help="characteristic gradient norm to reach as well")
+    add("--gradient-tolerance", type=amount, metavar="T", help="done as well at this characteristic gradient norm")
     add("--time-limit", type=amount, default=math.inf, metavar="SECONDS", help="stop after so long")
     add("--threads", type=positive_count, metavar="N", help="threads of the kernels and the linear algebra")
     add("--seed", type=count, default=0, metavar="N", help="for methods that draw random numbers (default: 0)")

@@ -131,9 +131,9 @@ class CorrectorClient:
         if self._connection is None or self._asked is not None:
             return
         moved = _moved(problem, state)
-        if not len(moved) and self._response is not None:
-            moved = self._response[1]
         key = _key(problem)
+        if not len(moved) and self._response is not None and self._response[0] == key:
+            moved = self._response[1]
         self.prepare(problem)
         if self._connection is None or self._asked is not None:
             return

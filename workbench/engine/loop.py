@@ -47,9 +47,7 @@ from workbench.engine.starts import adjusted_start, make_start
 HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
 
-NO_VOLUMES = (
-    ": volumes are solved from the command line for now (workbench solve FILE --out OUT); open a triangle mesh here."
-)
+NO_VOLUMES = ": volumes are solved from the command line for now (workbench solve FILE --out OUT); open a triangle mesh here."
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,10 +160,15 @@ class EngineLoop:
             refusal = UnsuitableSourceError(f"{command.source} holds tetrahedra{NO_VOLUMES}")
             refusal.lines = opened.lines
             raise refusal
+        # Whatever refuses the mesh (a formula that does not exist in its dimension, say) leaves the old one in force.
+        distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
+        problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
+        if self._mesh is not None:  # the start that was chosen for another mesh is not for this one
+            self._reset = Reset(match_area=self._reset.match_area)
         self._generation = command.generation
         self._mesh, self._kind, self._file_start = opened.mesh, opened.kind, opened.start
         self._running, self._steps_left, self._anchors = False, 0, None
-        self._problem = self._state = self._boundary_positions = None
+        self._problem, self._state, self._boundary_positions = problem, None, None
         self._publish(
             Loaded(
                 generation=command.generation,
@@ -179,9 +182,7 @@ class EngineLoop:
                 anchor_targets=opened.anchor_targets,
             )
         )
-        distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
-        self._problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
-        self._make_start(replace(self._reset, file="", initializer="", parameters={}) if self._reset.file else self._reset)
+        self._make_start(self._reset)
 
     def _restore(self, command: Restore) -> None:
         self._generation, self._mesh, self._kind = command.generation, command.mesh, command.kind
@@ -211,7 +212,7 @@ class EngineLoop:
 
     def _start_from(self, start: Floats, iteration: int) -> None:
         assert self._problem is not None
-        self._solver = self._configured_solver()
+        self._solver = self._configured_solver(self._solver_choice)
         if self._choices.fixed_boundary:
             self._boundary_positions = start[self._boundary()].copy()
         self._problem = self._problem.with_anchors(self._all_anchors())
@@ -234,25 +235,26 @@ class EngineLoop:
             changed = self._problem if same else self._problem.with_distortion(distortion, command.allow_inversions)
             self._choices = command
             self._problem = changed
-            if boundary_changes:
+            if boundary_changes and self._state is not None:
                 self._boundary_positions = (
                     self._current().positions[self._boundary()].copy() if command.fixed_boundary else None
                 )
-            self._rebase()
+            if self._state is not None:
+                self._rebase()
         self._choices = command
 
     def _set_solver(self, command: SetSolver) -> None:
-        registry().solver(command.solver).configured(command.parameters)
+        solver = self._configured_solver(command)
         self._solver_choice = command
         if self._state is not None:
-            self._solver = self._configured_solver()
+            self._solver = solver
             self._rebase()
 
-    def _configured_solver(self) -> Solver:
-        method = registry().solver(self._solver_choice.solver)
-        if self._kind not in method.kinds:
+    def _configured_solver(self, choice: SetSolver) -> Solver:
+        method = registry().solver(choice.solver)
+        if self._mesh is not None and self._kind not in method.kinds:
             raise WorkbenchError(f"{method.label} does not solve {self._kind} maps; choose another solver.")
-        solver: Solver = method.configured(self._solver_choice.parameters)
+        solver: Solver = method.configured(choice.parameters)
         return solver
 
     def _set_anchors(self, command: SetAnchors) -> None:

@@ -254,7 +254,8 @@ class EngineWorker:
         if isinstance(report, Loaded):
             self._loaded, self._loaded_by, self._last_map = report, self._loading, None
             self._loading, self._running = None, None
-            self._settings.pop(SetAnchors, None)
+            for kind in (SetAnchors, Reset):
+                self._settings.pop(kind, None)
             self._colours = LiveColours(build_elements(report.mesh))
             self._start_corrector()
             with self._lock:

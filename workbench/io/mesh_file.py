@@ -11,10 +11,10 @@ from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh, TextureCoordinates
 
-LARGEST_COORDINATE = 1e100
-"""Beyond this, squares and cubes of lengths leave the range of double precision."""
+LARGEST_COORDINATE = 1e70
+"""Beyond this, products of four lengths leave the range of double precision."""
 
-SMALLEST_DIAMETER = 1e-100
+SMALLEST_DIAMETER = 1e-70
 
 
 @dataclass(frozen=True, eq=False)
