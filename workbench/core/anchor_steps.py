@@ -90,7 +90,7 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         system.forget()
         return replace(state, status=Status.SINGULAR)
     with problem.workspace.timed("line_search"):
-        return _push(problem, state, evaluation.energy, evaluation.gradient, direction, fresh, interrupt)
+        return _push(problem, state, evaluation.energy, evaluation.gradient, direction, interrupt)
 
 
 def predict_with_response(
@@ -217,7 +217,6 @@ def _push(
     energy: float,
     gradient: Floats,
     direction: Floats,
-    fresh: bool,
     interrupt: Callable[[], bool],
 ) -> State:
     x = state.positions
@@ -243,7 +242,7 @@ def _push(
             return replace(state, status=Status.INTERRUPTED)
         candidate = x + size * direction
         if size == 1.0:
-            _place_exactly(problem, x, direction, candidate)
+            _place_exactly(problem, candidate)
         after = problem.evaluate(candidate, 1)
         allowed = energy + max(4.0 * size * rise, 0.02 * abs(energy))
         if math.isfinite(after.energy) and not (clean and after.inverted) and after.energy <= allowed:
@@ -314,7 +313,7 @@ def _evaluation(problem: Problem, state: State) -> Evaluation:
     return problem.evaluate(state.positions, 1)
 
 
-def _place_exactly(problem: Problem, x: Floats, direction: Floats, candidate: Floats) -> None:
+def _place_exactly(problem: Problem, candidate: Floats) -> None:
     """Put anchors that arrive on their targets to the last bit."""
     hard, targets = problem.anchors.hard_vertices, problem.anchors.hard_targets
     arrives = np.abs(candidate[hard] - targets).max(axis=1, initial=0.0) <= 1e-6 * problem.anchor_tolerance + 1e-12 * (

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.core.arrays import Floats
 from workbench.core.errors import FormulaError
 from workbench.core.expression import Graph, Op
 from workbench.core.tape import Tape, compile_tape
@@ -324,8 +323,3 @@ class _Reader:
 
 def _each(value: Value, function: Callable[[int], int]) -> Value:
     return [function(v) for v in value] if isinstance(value, list) else function(value)
-
-
-def evaluate_formula(compiled: CompiledFormula, singular_values: Floats) -> Floats:
-    """(m, n) singular values -> (m,) values of D on their absolute values."""
-    return compiled.value.evaluate(np.abs(singular_values))[:, 0]

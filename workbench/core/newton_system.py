@@ -44,10 +44,6 @@ class NewtonSystem:
         return self._solver
 
     @property
-    def is_factorised(self) -> bool:
-        return self._values is not None
-
-    @property
     def hessian_values(self) -> Floats:
         """(nnz,) the Hessian of the last factor, before elimination."""
         assert self._values is not None

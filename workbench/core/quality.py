@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers
-from workbench.core.distortion import Distortion
 from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
 from workbench.core.mesh import Mesh
 
@@ -81,7 +80,7 @@ def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:
     det = determinants(elements, positions)
     measures = {}
     for id, distortion in sorted(registry().distortions.items()):
-        measures[id] = statistics(distortion_values(distortion, sigma), elements.rest_measures)
+        measures[id] = statistics(distortion.value(sigma), elements.rest_measures)
     edges, counts = average_histogram(np.abs(sigma).mean(axis=1))
     local = local_injectivity(mesh, positions)
     whole = global_injectivity(mesh, positions)
@@ -97,11 +96,6 @@ def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:
         },
         "histogram78": {"edges": edges.tolist(), "counts": counts.tolist()},
     }
-
-
-def distortion_values(distortion: Distortion, sigma: Floats) -> Floats:
-    """(m, n) signed singular values -> (m,), +inf on inverted simplices of a barrier distortion."""
-    return distortion.value(sigma)
 
 
 def statistics(values: Floats, weights: Floats) -> dict[str, float]:

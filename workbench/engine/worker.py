@@ -153,7 +153,6 @@ class EngineWorker:
     # ----------------------------------------------------------------------------------- the thread's own
 
     def _main(self) -> None:
-        # One kernel thread is enough for the colours; the cores belong to the solver and to drawing.
         try:
             self._spawn()
             while not self._closing:
