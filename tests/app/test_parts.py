@@ -12,6 +12,7 @@ from tests.app.conftest import leaked_widgets
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.colour_bar import ticks
 from workbench.app.commands import boundary_vertices
+from workbench.app.docks.convergence_dock import MOST_BINS, thinned
 from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
 from workbench.app.meters import DragMeter, RateMeter
@@ -174,3 +175,14 @@ def test_the_leak_check_can_fail(qtbot: QtBot) -> None:
     widget.show()
     assert widget in leaked_widgets()
     qtbot.addWidget(widget)
+
+
+@pytest.mark.parametrize("count", [0, 1, 5, 2 * MOST_BINS, 2 * MOST_BINS + 1, 12_345])
+def test_a_thinned_curve_keeps_its_ends_and_peaks(count: int) -> None:
+    abscissa, values = np.arange(count, dtype=float), np.random.default_rng(3).normal(size=count)
+    x, y = thinned(abscissa, values)
+    assert len(x) == len(y) <= 4 * MOST_BINS
+    assert (np.diff(x) >= 0).all()
+    np.testing.assert_array_equal(values[x.astype(int)], y)
+    if count:
+        assert (x[-1], y.min(), y.max()) == (count - 1, values.min(), values.max())

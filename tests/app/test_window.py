@@ -10,11 +10,12 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QImage, QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
 from workbench.app.main_window import MainWindow
+from workbench.app.menus import fill_samples
 from workbench.app.views.mesh_view import MeshView
 from workbench.engine.messages import Load, Pause, Reset, Run, SetAnchors, SetProblem, SetSolver, Step
 
@@ -296,3 +297,21 @@ def test_only_views_that_are_to_be_seen_are_drawn(window: MainWindow, qtbot: QtB
     hand.drag(begin, begin + QPoint(-20, 10))
     dock.show()
     assert not drawn
+
+
+def test_the_menu_names_the_samples_that_can_be_shown(window: MainWindow) -> None:
+    menu = QMenu(window)
+    fill_samples(window, menu)
+    names = [action.text() for action in menu.actions()]
+    assert "Gingerbread man" in names
+    assert "Ball" not in names
+
+
+def test_a_step_that_lasts_is_named_with_the_way_out(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    monkeypatch.setattr("workbench.app.reporter.LONG_STEP", 0.0)
+    window.document.run()
+    qtbot.waitUntil(lambda: "Stop ends it" in window.status.sentence.text())
+    window.document.pause()
+    qtbot.waitUntil(lambda: "Stop ends it" not in window.status.sentence.text())
