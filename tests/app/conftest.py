@@ -102,7 +102,10 @@ def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) ->
     window.bridge.start()
     while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
         QTest.qWait(20)
-    QTest.qWait(100)
+    before = None
+    while before != window.target.view.size():  # the panel takes its new width when there is time
+        before = window.target.view.size()
+        QTest.qWait(300)
     yield window
     end_window(window)
 
