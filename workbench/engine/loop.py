@@ -142,6 +142,8 @@ class EngineLoop:
         elif isinstance(command, Run):
             self._limits, self._running, self._steps_left = command, True, 0
             self._begin_run()
+            if not self.is_active and self._state is not None:
+                self.publish_map()  # it cannot run, and the status says why
         elif isinstance(command, Pause):
             self._running, self._steps_left = False, 0
             self.publish_map()
