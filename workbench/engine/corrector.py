@@ -30,7 +30,7 @@ CHORDS = 3
 """Corrections with one factor before a fresh one is made."""
 GREETING, PREPARATION = ("greeting",), ("preparation",)
 """What is waited for beside corrections: only one message is ever under way, so that no two large ones can meet."""
-LONG = 0.04
+LONG = 0.08
 """Seconds of waiting for a correction after which the engine makes room with what it has."""
 SMALLEST = 4000
 """Simplices below which a step of the engine itself is quicker than the way to another process."""
@@ -97,6 +97,10 @@ class CorrectorClient:
             self.poll(problem)
         self.prepare(problem)
         return self._asked not in (GREETING, PREPARATION)
+
+    def is_coming(self, problem: Problem) -> bool:
+        """Whether it will serve this problem once it has started and prepared."""
+        return self._takes(problem) and self._asked in (GREETING, PREPARATION)
 
     def _takes(self, problem: Problem) -> bool:
         return (

@@ -7,6 +7,7 @@ from multiprocessing.connection import Connection
 
 from workbench.core.anchor_steps import (
     SETTLED,
+    Renewal,
     apply_correction,
     approach_anchors,
     correct_with_last_factor,
@@ -53,12 +54,14 @@ class HandFollower:
         if self._corrector.serves(problem, state):
             with one_thread():  # the corrector and the drawing have the other core
                 return self._with_corrector(problem, state)
+        # Where the corrector is only getting ready, what it will bring is not worth a pause now.
+        renewal: Renewal = "never" if self._corrector.is_coming(problem) else "rationed"
         if problem.anchors_lag(state.positions):
             predicted = predict_with_last_factor(problem, state, self._pending)
-            return predicted or approach_anchors(problem, state, self._pending, renewal="rationed")
+            return predicted or approach_anchors(problem, state, self._pending, renewal=renewal)
         if self._settled:
             return None
-        following = correct_with_last_factor(problem, state, self._pending)
+        following = correct_with_last_factor(problem, state, self._pending, renewal=renewal)
         self._settled = following.step_size == 0.0
         return following
 

@@ -46,6 +46,8 @@ from workbench.engine.starts import adjusted_start, make_start
 
 HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
+HAND_LETS_GO = 0.05
+"""Seconds after a release in which the last events are answered before the full solver starts."""
 
 NO_VOLUMES = ": volumes are solved from the command line for now (workbench solve FILE --out OUT); open a triangle mesh here."
 
@@ -106,7 +108,7 @@ class EngineLoop:
         self._seconds = 0.0
         self._rows: list[HistoryRow] = []
         self._number = 0
-        self._last_anchor_command = 0.0
+        self._hand_until = 0.0
         self._timing: dict[str, float] = {}
         self.has_quit = False
 
@@ -260,7 +262,8 @@ class EngineLoop:
         return solver
 
     def _set_anchors(self, command: SetAnchors) -> None:
-        self._last_anchor_command = time.perf_counter()
+        grace = HAND_RESTS if command.dragging else HAND_LETS_GO if self._is_dragging else 0.0
+        self._hand_until = time.perf_counter() + grace
         previous, self._anchors = self._anchors, command
         if self._problem is None or self._state is None:
             return
@@ -345,6 +348,11 @@ class EngineLoop:
         return "dragging" if self._is_dragging else "running"
 
     @property
+    def _hand_moves(self) -> bool:
+        """Whether the next event of a hand is to be expected within moments, or its last one is still to be answered."""
+        return self._running and time.perf_counter() < self._hand_until
+
+    @property
     def _is_dragging(self) -> bool:
         return self._anchors is not None and self._anchors.dragging
 
@@ -374,8 +382,7 @@ class EngineLoop:
         return True
 
     def _step(self, problem: Problem, state: State, solver: Solver) -> State | None:
-        hand_moves = self._is_dragging and time.perf_counter() - self._last_anchor_command < HAND_RESTS
-        if hand_moves and self._running:
+        if self._hand_moves:
             following = self._hand.step(problem, state)
             return None if following is None else checked(solver, problem, state, following)
         return guarded_step(solver, problem, state, self._pending)
@@ -394,10 +401,8 @@ class EngineLoop:
         if following.status is Status.INTERRUPTED:
             self._state = replace(following, status=Status.RUNNING)
             return
-        hand = self._is_dragging and following.status is Status.RUNNING
-        status = following.status if hand and problem.anchors_lag(following.positions) else solver.terminate(problem, following)
-        if hand and status is Status.CONVERGED and time.perf_counter() - self._last_anchor_command < HAND_RESTS:
-            status = Status.RUNNING
+        moving = self._hand_moves and following.status is Status.RUNNING
+        status = Status.RUNNING if moving else solver.terminate(problem, following)
         if following.iteration > state.iteration:
             self._run_iterations += 1
             if self._steps_left:
