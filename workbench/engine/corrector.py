@@ -201,7 +201,7 @@ def corrector_main(connection: Connection) -> None:
     keep_freed_memory()
     set_thread_count(1)  # the other core answers the hand
     if hasattr(os, "nice"):
-        os.nice(5)  # the hand and the picture come first
+        os.nice(10)  # the hand and the picture come first
     desk = _Desk()
     try:
         connection.send(None)  # the greeting
