@@ -71,7 +71,6 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
             system.factorise(evaluation.hessian_values, hard)
         except SingularMatrixError:
             return replace(state, status=Status.SINGULAR)
-        system.factorised_at = time.perf_counter_ns()
     else:
         evaluation = _evaluation(problem, state)
     if interrupt():
@@ -93,6 +92,22 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         return _push(problem, state, evaluation.energy, evaluation.gradient, direction, interrupt)
 
 
+def moved_anchors(problem: Problem, state: State) -> Integers:
+    """Rows (j,) of the hard anchors that are not at their targets."""
+    anchors = problem.anchors
+    displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
+    return np.flatnonzero(displacement > 0.1 * problem.anchor_tolerance)
+
+
+def _bounded_push(problem: Problem, x: Floats, direction: Floats) -> tuple[float, int]:
+    """First step of a push, at most 1, and the simplex that bounds it (-1 where none does)."""
+    if problem.forbids_inversions:
+        bound, simplex = largest_step(x, direction, problem.elements.simplices)
+        if BOUNDARY_PART * bound < 1.0:
+            return BOUNDARY_PART * bound, simplex
+    return 1.0, -1
+
+
 def predict_with_response(
     problem: Problem,
     state: State,
@@ -108,19 +123,15 @@ def predict_with_response(
     x = state.positions
     hard = problem.anchors.hard_vertices
     displacement = problem.anchors.hard_targets - x[hard]
-    moved = np.flatnonzero(np.abs(displacement).max(axis=1) > 0.1 * problem.anchor_tolerance)
+    moved = moved_anchors(problem, state)
     if not 0 < len(moved) <= PREDICTED_ANCHORS:
         return None
     matrix = response(hard[moved])
     if matrix is None:
         return None
     direction = (displacement[moved].reshape(-1) @ matrix).reshape(x.shape)
-    size, limiting = 1.0, -1
     with problem.workspace.timed("line_search"):
-        if problem.forbids_inversions:
-            bound, simplex = largest_step(x, direction, problem.elements.simplices)
-            if BOUNDARY_PART * bound < 1.0:
-                size, limiting = BOUNDARY_PART * bound, simplex
+        size, limiting = _bounded_push(problem, x, direction)
         allowed = state.energy + PREDICTED_RISE * abs(state.energy)
         while size >= LEAST_PREDICTION:
             candidate = x + size * direction
@@ -203,7 +214,6 @@ def correct_with_last_factor(
             system.factorise(evaluation.hessian_values, problem.anchors.hard_vertices)
         except SingularMatrixError:
             return replace(state, status=Status.SINGULAR)
-        system.factorised_at = time.perf_counter_ns()
     following = _relax(problem, state, evaluation.energy, evaluation.gradient, interrupt)
     gain = evaluation.energy - following.energy
     if following.status is Status.RUNNING and gain <= SETTLED * abs(evaluation.energy):
@@ -221,11 +231,7 @@ def _push(
 ) -> State:
     x = state.positions
     hard = problem.anchors.hard_vertices
-    size, limiting = 1.0, -1
-    if problem.forbids_inversions:
-        bound, simplex = largest_step(x, direction, problem.elements.simplices)
-        if BOUNDARY_PART * bound < 1.0:
-            size, limiting = BOUNDARY_PART * bound, simplex
+    size, limiting = _bounded_push(problem, x, direction)
     clean = state.inverted == 0 and problem.forbids_inversions
     slope = float(np.einsum("ij,ij->", gradient, direction))
     anchor_force, work = problem.system.anchor_forces(direction)
@@ -338,5 +344,5 @@ def _renews(problem: Problem, renewal: Renewal) -> bool:
         return renewal == "eager"
     system = problem.system
     cost = system.last_factorisation_seconds
-    since = (time.perf_counter_ns() - system.factorised_at) * 1e-9
+    since = time.perf_counter() - system.factorised_at
     return cost <= CHEAP_FACTORISATION or since * DUTY >= cost

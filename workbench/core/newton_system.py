@@ -31,7 +31,7 @@ class NewtonSystem:
         self._fixed_mask = np.zeros(pattern.size, dtype=bool)
         self._values: Floats | None = None
         self._responses: dict[bytes, Floats] = {}
-        self.factorised_at: int = 0
+        self.factorised_at = 0.0  # time.perf_counter() at the end of the last factorisation
         self.seconds = {"factorise": 0.0, "solve": 0.0}
         self.counts = {"factorise": 0, "solve": 0}
         self.last_factorisation_seconds = 0.0
@@ -156,7 +156,8 @@ class NewtonSystem:
                     raise
         self._values = values
         self.counts["factorise"] += 1
-        self.last_factorisation_seconds = time.perf_counter() - begin
+        self.factorised_at = time.perf_counter()
+        self.last_factorisation_seconds = self.factorised_at - begin
         self.seconds["factorise"] += self.last_factorisation_seconds
 
     def solve(

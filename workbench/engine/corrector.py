@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.core.anchor_steps import PREDICTED_ANCHORS
+from workbench.core.anchor_steps import PREDICTED_ANCHORS, moved_anchors
 from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Energy
@@ -91,7 +91,7 @@ class CorrectorClient:
 
     def serves(self, problem: Problem, state: State) -> bool:
         """Whether this problem can be corrected elsewhere, and is worth it; not where a whole group of anchors moves."""
-        if not self._takes(problem) or len(_moved(problem, state)) > PREDICTED_ANCHORS:
+        if not self._takes(problem) or len(moved_anchors(problem, state)) > PREDICTED_ANCHORS:
             return False
         if self._asked in (GREETING, PREPARATION):
             self.poll(problem)
@@ -134,7 +134,7 @@ class CorrectorClient:
         """Ask for a correction of this map, unless one is under way; `fresh` asks for a new factor."""
         if self._connection is None or self._asked is not None:
             return
-        moved = _moved(problem, state)
+        moved = problem.anchors.hard_vertices[moved_anchors(problem, state)]
         key = _key(problem)
         if not len(moved) and self._response is not None and self._response[0] == key:
             moved = self._response[1]
@@ -177,13 +177,6 @@ class CorrectorClient:
         if not np.array_equal(self._response[1], moved):
             return None
         return self._response[2]
-
-
-def _moved(problem: Problem, state: State) -> Integers:
-    """Hard anchors that are not at their targets."""
-    anchors = problem.anchors
-    displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
-    return anchors.hard_vertices[displacement > 0.1 * problem.anchor_tolerance]
 
 
 def _key(problem: Problem) -> tuple[Any, ...]:
