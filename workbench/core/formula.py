@@ -37,10 +37,13 @@ class CompiledFormula:
     """A formula in one dimension n with its parameters bound.
 
     `value` gives D; `gradient` D and D_i; `hessian` D, D_i and D_ij (i <= j, row by row), each a `Tape` in |sigma|.
+    `graph` and `root` are the expression itself, parameters bound, for symbolic analysis.
     """
 
     text: str
     dimension: int
+    graph: Graph
+    root: int
     value: Tape
     gradient: Tape
     hessian: Tape
@@ -76,6 +79,8 @@ def compile_formula(
     return CompiledFormula(
         text=text,
         dimension=dimension,
+        graph=graph,
+        root=root,
         value=compile_tape(graph, [root]),
         gradient=compile_tape(graph, [root, *first]),
         hessian=compile_tape(graph, [root, *first, *second]),
