@@ -9,5 +9,5 @@ distortion = Distortion(
     formula="sum(largest(k))",
     parameters=(Parameter("k", int, 2, "how many of the largest singular values count", minimum=1, maximum=3),),
     citation="(84)",
-    description="Sum of the k largest singular values. Convex in the map; smooth only where the last one that counts is simple.",
+    description="Sum of the k largest singular values. Convex in the map; smooth where the last that counts is simple.",
 )
