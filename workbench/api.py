@@ -13,6 +13,7 @@ from workbench.core.distortion import Distortion
 from workbench.core.energy import Evaluation
 from workbench.core.errors import FormulaError, MeshError, WorkbenchError
 from workbench.core.initializer import Initializer, StartRequest
+from workbench.core.laplacian_system import LaplacianSystem
 from workbench.core.line_search import SAFETY, armijo, largest_step, largest_step_without_inversion
 from workbench.core.linear_maps import (
     conformal_energy,
@@ -53,6 +54,7 @@ __all__ = [
     "Integers",
     "Interrupt",
     "Kind",
+    "LaplacianSystem",
     "LinearConstraints",
     "Mesh",
     "MeshError",

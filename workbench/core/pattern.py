@@ -116,10 +116,11 @@ def _minimum_degree_order(graph: sparse.csr_matrix) -> Integers:
         return np.asarray(sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True), dtype=np.int64)
 
 
-def build_pattern(simplices: Integers, vertex_count: int, dimension: int) -> HessianPattern:
-    """Pattern of the Hessian of any energy on these simplices. Cost: O(m) and one ordering."""
+def build_pattern(simplices: Integers, vertex_count: int, dimension: int, order: Integers | None = None) -> HessianPattern:
+    """Pattern of the Hessian of any energy on these simplices. Cost: O(m), and one ordering where `order` is None."""
     graph = vertex_graph(simplices, vertex_count)
-    order = elimination_order(graph)
+    if order is None:
+        order = elimination_order(graph)
     place = np.empty(vertex_count, dtype=np.int64)
     place[order] = np.arange(vertex_count)
 

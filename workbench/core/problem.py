@@ -17,6 +17,7 @@ from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Energy, Evaluation
 from workbench.core.jacobians import Elements, build_elements, determinants
+from workbench.core.laplacian_system import LaplacianSystem
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.newton_system import NewtonSystem
@@ -45,8 +46,9 @@ class Workspace:
     def __init__(self, energy: Energy) -> None:
         self._energy = energy
         self._system: NewtonSystem | None = None
+        self._laplacian: LaplacianSystem | None = None
         self.seconds = {"assemble": 0.0, "line_search": 0.0}
-        self.counts = {"energy": 0, "gradient": 0, "hessian": 0}
+        self.counts = {"energy": 0, "gradient": 0, "hessian": 0, "trials": 0}
         self.groups: tuple[bytes, list[np.ndarray]] | None = None
 
     @property
@@ -56,14 +58,26 @@ class Workspace:
             self._system = NewtonSystem(self._energy.pattern)
         return self._system
 
+    @property
+    def laplacian(self) -> LaplacianSystem:
+        """The Laplacian of the source, made when first asked for; its factor outlives distortions and targets."""
+        if self._laplacian is None:
+            self._laplacian = LaplacianSystem(self._energy.elements, self._energy.pattern.order)
+        return self._laplacian
+
     def forget_factor(self) -> None:
         if self._system is not None:
             self._system.forget()
 
     def all_seconds(self) -> dict[str, float]:
         """Seconds by part: assemble, factorise, solve, line_search."""
-        own = self._system.seconds if self._system else {"factorise": 0.0, "solve": 0.0}
-        return {**self.seconds, **own}
+        systems = [s.seconds for s in (self._system, self._laplacian) if s is not None]
+        return {**self.seconds, **{part: sum(s[part] for s in systems) for part in ("factorise", "solve")}}
+
+    def all_counts(self) -> dict[str, int]:
+        """How often so far: energy, gradient, hessian, line-search trials, factorise, solve."""
+        systems = [s.counts for s in (self._system, self._laplacian) if s is not None]
+        return {**self.counts, **{part: sum(s[part] for s in systems) for part in ("factorise", "solve")}}
 
     @contextmanager
     def timed(self, part: str) -> Iterator[None]:
