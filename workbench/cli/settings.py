@@ -46,8 +46,12 @@ def assign(
 ) -> tuple[dict[str, str], ...]:
     """Settings of the distortion, then of each of `methods`: a name goes to the first that has it.
 
-    Raises `WorkbenchError` for a name that none of them has, naming those that there are.
+    Raises `WorkbenchError` for a name that none of them has, naming those that there are, and `FormulaError` for a name
+    in a typed formula that is not set.
     """
+    from workbench.core.formula_names import check_names, looks_like_id
+    from workbench.core.registry import registry
+
     forms = [distortion_parameters(distortion), *(tuple(p.name for p in method.parameters()) for method in methods)]
     chosen: tuple[dict[str, str], ...] = tuple({} for _ in forms)
     for name, value in settings:
@@ -56,4 +60,6 @@ def assign(
             known = ", ".join(dict.fromkeys(item for form in forms for item in form)) or "none"
             raise WorkbenchError(f"There is no parameter {name!r} to set; there are: {known}.")
         chosen[owner][name] = value
+    if distortion not in registry().distortions and not looks_like_id(distortion):
+        check_names(distortion, chosen[0])
     return chosen

@@ -6,7 +6,7 @@ import importlib.util
 import inspect
 import sys
 import traceback
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -14,9 +14,10 @@ from typing import Any
 
 import platformdirs
 
-from workbench.core.distortion import Distortion
+from workbench.core.distortion import Distortion, _formula_of
 from workbench.core.errors import WorkbenchError
 from workbench.core.initializer import Initializer
+from workbench.core.named_formulas import NamedFormula, add_formulas, formulas_file, read_formulas
 from workbench.core.solver import Solver
 
 FOLDERS = {"distortions": Distortion, "initializers": Initializer, "solvers": Solver}
@@ -34,13 +35,17 @@ class PluginFailure:
 
 @dataclass(frozen=True)
 class Registry:
-    """Every method by id; a later file replaces an earlier one of the same id (the user's folder comes last)."""
+    """Every method by id; a later file replaces an earlier one of the same id (the user's folder comes last).
+
+    The user's named formulas stand among the distortions, and in `own_formulas` as they were saved.
+    """
 
     distortions: dict[str, Distortion] = field(default_factory=dict)
     initializers: dict[str, type[Initializer]] = field(default_factory=dict)
     solvers: dict[str, type[Solver]] = field(default_factory=dict)
     failures: tuple[PluginFailure, ...] = ()
     origins: dict[tuple[str, str], Path] = field(default_factory=dict)
+    own_formulas: dict[str, NamedFormula] = field(default_factory=dict)
 
     def solver(self, id: str) -> type[Solver]:
         return self._named("solvers", id, "solver")
@@ -67,10 +72,40 @@ def user_plugin_folder() -> Path:
     return platformdirs.user_data_path("distortion-workbench", appauthor=False) / "plugins"
 
 
-@lru_cache(maxsize=1)
 def registry() -> Registry:
-    """All methods, found once a process."""
+    """All methods: plugins are found once a process, the user's named formulas whenever their file has changed."""
+    return _with_formulas(_file_stamp(formulas_file()))
+
+
+@lru_cache(maxsize=1)
+def _plugin_methods() -> Registry:
     return load_registry((resource_folder("plugins"), user_plugin_folder()))
+
+
+def _file_stamp(path: Path) -> tuple[str, int, int, int]:
+    """What tells one content of a file from the next: files are replaced whole, so that each has an inode of its own."""
+    try:
+        found = path.stat()
+    except OSError:
+        return str(path), 0, 0, 0
+    return str(path), found.st_mtime_ns, found.st_size, found.st_ino
+
+
+@lru_cache(maxsize=1)
+def _with_formulas(stamp: tuple[str, int, int, int]) -> Registry:
+    methods, path = _plugin_methods(), Path(stamp[0])
+    formulas, faults = read_formulas(path)
+    distortions = dict(methods.distortions)
+    faults += add_formulas(formulas, distortions)
+    _formula_of.cache_clear()  # a name may have another meaning now
+    own = {item.id: item for item in formulas if item.id not in methods.distortions and item.id in distortions}
+    return replace(
+        methods,
+        distortions=distortions,
+        failures=methods.failures + tuple(PluginFailure(path, fault, fault) for fault in faults),
+        origins=methods.origins | {("distortions", id): path for id in own},
+        own_formulas=own,
+    )
 
 
 def load_registry(roots: tuple[Path, ...]) -> Registry:
