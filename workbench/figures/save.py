@@ -1,0 +1,35 @@
+"""Writing a figure: PNG, PDF or SVG, whole or not there, the same bytes for the same figure."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from workbench.core.errors import WorkbenchError
+from workbench.io.atomic import replacing
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FORMATS = (".png", ".pdf", ".svg")
+
+NO_DATES = {".png": {"Software": None}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+
+
+def check_format(path: str | os.PathLike[str]) -> str:
+    """The ending of `path`. Raises `WorkbenchError` unless it is one of `FORMATS`."""
+    ending = Path(path).suffix.lower()
+    if ending not in FORMATS:
+        raise WorkbenchError(f"{path}: figures are written as {', '.join(FORMATS)}; choose one of these endings.")
+    return ending
+
+
+def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Write `figure` in the format of the ending of `path`. Raises `WorkbenchError` where that cannot be."""
+    import matplotlib
+
+    ending = check_format(path)
+    # names inside an SVG are drawn by lot unless they are salted
+    with replacing(path) as part, matplotlib.rc_context({"svg.hashsalt": "figure"}):
+        figure.savefig(part, format=ending[1:], dpi=160, metadata=NO_DATES[ending])
