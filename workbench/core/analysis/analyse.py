@@ -1,0 +1,53 @@
+"""All properties of a distortion in one dimension."""
+
+from __future__ import annotations
+
+from workbench.core.analysis.barriers import bottom_barrier, top_barrier
+from workbench.core.analysis.convexity import convexity
+from workbench.core.analysis.density import Density
+from workbench.core.analysis.normalisation import normalisation
+from workbench.core.analysis.properties import Analysis, Property
+from workbench.core.analysis.smoothness import smoothness
+from workbench.core.analysis.symmetry import symmetry
+from workbench.core.distortion import Distortion
+
+
+def analyse(distortion: Distortion, dimension: int) -> Analysis:
+    """Properties of Corollary 2.1 and Theorem 8.3, deterministic.
+
+    Parameters
+    ----------
+    distortion : Distortion     with its parameter values
+    dimension : int             n, 2 or 3
+
+    Raises `FormulaError` where the formula means nothing in this dimension.
+    """
+    density = Density.of(distortion, dimension)
+    parts = {
+        "normalised": normalisation(density),
+        "symmetric": symmetry(density),
+        "bottom_barrier": bottom_barrier(density),
+        "top_barrier": top_barrier(density),
+        "smooth_almost_everywhere": smoothness(density),
+    }
+    return Analysis(
+        formula=distortion.formula,
+        dimension=dimension,
+        **parts,
+        regular=_regular(parts),
+        convex=convexity(density),
+    )
+
+
+def _regular(parts: dict[str, Property]) -> Property:
+    """The conjunction, with D >= 0 as the corollary presupposes."""
+    failing = [name.replace("_", " ") for name, part in parts.items() if part.holds is False]
+    least = parts["normalised"].value
+    if parts["normalised"].holds and least is not None and least < 0.0:
+        failing.append(f"nonnegative (its minimum is {least:.6g})")
+    if failing:
+        return Property(False, "", f"Not {', not '.join(failing)}.", {"fails": failing})
+    if all(part.holds for part in parts.values()):
+        return Property(True, "", "All five properties of Corollary 2.1 hold.")
+    open_questions = [name.replace("_", " ") for name, part in parts.items() if part.holds is None]
+    return Property(None, "", f"Not decided: {', '.join(open_questions)}.")
