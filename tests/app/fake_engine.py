@@ -25,6 +25,7 @@ from workbench.engine.messages import (
     SetAnchors,
     Snapshot,
     Step,
+    Watch,
 )
 
 
@@ -61,6 +62,7 @@ class FakeWorker:
         self._number = 0
         self._running = False
         self._dragging = False
+        self._watch = Watch()
 
     def start(self) -> None:
         self._tell(Ready(0.1))
@@ -69,6 +71,10 @@ class FakeWorker:
         self.commands.append(command)
         if isinstance(command, Load):
             self._load(command)
+        elif isinstance(command, Watch):
+            self._watch = command
+            if self._mesh is not None:
+                self._publish(is_news=False)
         elif self._mesh is None:
             return
         elif isinstance(command, SetAnchors):
@@ -131,10 +137,20 @@ class FakeWorker:
         weights = 1.0 / (distance**2 + 1e-6)
         self._positions = self._start + (weights / weights.sum(axis=1, keepdims=True)) @ offset
 
-    def _publish(self) -> None:
+    @staticmethod
+    def _values_of(text: str, sigma: np.ndarray) -> np.ndarray:
+        known = {
+            "dirichlet": 2 * sigma**2,
+            "condition-number": 1 + np.abs(sigma - 1),
+            "symmetric-dirichlet": 2 * sigma**2 + 2 / np.maximum(sigma, 1e-3) ** 2,
+            "det": sigma**2,
+        }
+        return known.get(text, sigma).astype(np.float32)
+
+    def _publish(self, *, is_news: bool = True) -> None:
         assert self._mesh is not None
-        self._number += 1
-        self._iteration += 1
+        self._number += is_news
+        self._iteration += is_news
         corners = self._positions[self._mesh.simplices]
         rest = self._start[self._mesh.simplices]
         u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
@@ -143,7 +159,6 @@ class FakeWorker:
         stretch = area / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
         sigma = np.sqrt(np.abs(stretch))
         inverted = area <= 0
-        counts, edges = np.histogram(sigma, bins=24, range=(0.0, float(sigma.max()) + 0.1))
         energy = float((sigma**2 + 1 / np.maximum(sigma, 1e-3) ** 2).mean())
         seconds, norm = 0.01 * self._iteration, 1 / self._iteration
         row = HistoryRow(self._iteration, seconds, energy, energy, norm, 1.0, int(inverted.sum()), 0.0)
@@ -157,15 +172,13 @@ class FakeWorker:
                 Status.RUNNING,
                 row,
                 inverted,
-                {
-                    "dirichlet": (2 * sigma**2).astype(np.float32),
-                    "condition-number": (1 + np.abs(sigma - 1)).astype(np.float32),
-                    "symmetric-dirichlet": (2 * sigma**2 + 2 / np.maximum(sigma, 1e-3) ** 2).astype(np.float32),
-                },
-                (edges, counts),
+                {measure.id: self._values_of(measure.text, sigma) for measure in self._watch.measures},
                 anchor_serial=self._serial,
                 limiting_simplex=5 if self._dragging else -1,
                 seconds_published=time.perf_counter(),
-                rows=(row,),
+                rows=(row,) if is_news else (),
+                singular_values=np.c_[sigma, np.copysign(sigma, area)].astype(np.float32)
+                if self._watch.singular_values
+                else None,
             )
         )

@@ -18,12 +18,15 @@ from pathlib import Path
 import numpy as np
 
 from workbench.core.jacobians import build_elements, determinants
+from workbench.core.measure import Measure
 from workbench.core.samples import make_sample
-from workbench.engine.messages import Failure, Load, Loaded, Reset, Run, SetAnchors, SetProblem, SetSolver, Snapshot
+from workbench.engine.messages import Failure, Load, Loaded, Reset, Run, SetAnchors, SetProblem, SetSolver, Snapshot, Watch
 from workbench.engine.worker import EngineWorker
 
 EVENTS_A_SECOND = 60
 SECONDS = 10.0
+WATCHED = ("dirichlet", "condition-number", "symmetric-dirichlet", "average-singular-value")
+"""What the window's panels show when it opens."""
 
 
 def wild_path(start: np.ndarray, diameter: float, seconds: float) -> np.ndarray:
@@ -59,7 +62,8 @@ def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> di
 
     worker = EngineWorker(wake, on_snapshot=on_snapshot, with_fields=with_fields)
     worker.start()
-    for command in (Load(path, 1), SetProblem(), SetSolver(), Reset()):
+    watched = Watch(tuple(Measure(id) for id in WATCHED))
+    for command in (watched, Load(path, 1), SetProblem(), SetSolver(), Reset()):
         worker.post(command)
     _await(news, lambda: bool(seen), 120)
     mesh, start = loaded[0].mesh, seen[-1][1].positions

@@ -14,6 +14,7 @@ import pytest
 
 from tests.conftest import grid
 from workbench.core.jacobians import build_elements, determinants
+from workbench.core.measure import Measure
 from workbench.core.registry import user_plugin_folder
 from workbench.core.status import Status
 from workbench.engine.command_box import CommandBox
@@ -34,6 +35,7 @@ from workbench.engine.messages import (
     SetSolver,
     Snapshot,
     Step,
+    Watch,
 )
 from workbench.engine.worker import CRASHES_IN_A_ROW, EngineWorker
 
@@ -385,3 +387,24 @@ def test_the_start_of_another_mesh_is_not_taken_over(desk: Desk, case: str, tmp_
     desk.until(lambda: desk.snapshots[-1].number > 1)
     desk.open(case, 2)
     assert not desk.told(Refused)
+
+
+def test_a_watch_is_answered_at_rest_and_outlives_the_process(desk: Desk, case: str) -> None:
+    first = desk.open(case)
+    assert not first.fields and first.singular_values is None
+    desk.worker.post(Watch((Measure("det"), Measure("sigma1 - sigma7")), singular_values=True))
+    desk.until(lambda: "det" in desk.snapshots[-1].fields)
+    answer = desk.snapshots[-1]
+    assert answer.number == first.number and not answer.rows, "nothing was stepped"
+    assert answer.singular_values.shape == (len(answer.inverted), 2)
+    (refused,) = desk.told(Refused)
+    assert refused.command == "Watch" and "sigma7" in refused.sentence
+    process = desk.worker.process_id
+    assert process is not None
+    os.kill(process, signal.SIGKILL)
+    desk.until(lambda: bool(desk.told(Restarted)))
+    desk.worker.post(Step(1))
+    desk.until(lambda: desk.snapshots[-1].number > first.number)
+    assert "det" in desk.snapshots[-1].fields
+    desk.worker.post(Watch())
+    desk.until(lambda: not desk.snapshots[-1].fields)

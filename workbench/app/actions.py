@@ -37,6 +37,7 @@ TEXTS: dict[str, ActionText] = {
     "fit": ActionText("&Fit views", ("F",), "Show everything in every view (F)", "fit"),
     "edges": ActionText("Show &edges", ("E",), checkable=True),
     "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),
+    "unbrush": ActionText("Clear &brush", ("Esc",), "No simplex is marked any longer (Esc)"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),

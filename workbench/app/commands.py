@@ -49,6 +49,7 @@ class Commands(QObject):
             "fit": self.fit,
             "edges": self.show_edges,
             "lock": self.hold_ranges,
+            "unbrush": window.brush.clear,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),

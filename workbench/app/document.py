@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +12,9 @@ from PySide6.QtCore import QObject, Signal
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
+from workbench.app.quantities import Quantity
 from workbench.core.arrays import Floats, Integers
+from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.engine.messages import (
     Failure,
@@ -26,6 +29,7 @@ from workbench.engine.messages import (
     SetSolver,
     Snapshot,
     Step,
+    Watch,
 )
 from workbench.session.session import Session
 
@@ -71,6 +75,8 @@ class Document(QObject):
         self._before: dict[str, dict[str, Any]] = {}
         self._is_opening = False
         self._has_finished = False
+        self._watches: dict[str, tuple[tuple[Measure, ...], bool]] = {}
+        self._watched = Watch()
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
@@ -164,7 +170,9 @@ class Document(QObject):
         self.history_restarted.emit()
 
     def _take_refused(self, report: Refused) -> None:
-        if report.generation == self.generation or report.command != "Load":
+        if report.command == "Watch":
+            self.refused.emit(report)
+        elif report.generation == self.generation or report.command != "Load":
             self.opening_source = ""
             if report.command in REFUSABLE:
                 self.session = replace(self.session, **self._before.pop(report.command, {}))
@@ -206,6 +214,24 @@ class Document(QObject):
             self.set_anchors(AnchorSet.at(vertices, start))
         else:
             self.set_anchors(AnchorSet.to(vertices, targets))
+
+    # ------------------------------------------------------------------------------------------ watching
+
+    def watch(self, owner: str, quantities: Iterable[Quantity] = (), singular_values: bool = False) -> None:
+        """Say what `owner` (a view, by a name of its own) wants to see of each map, in place of what it wanted before.
+
+        Snapshots carry what any owner wants: `Snapshot.fields[quantity.id]`, and `Snapshot.singular_values`. One with the
+        new fields comes at once, also while the solver rests. Nothing wanted any longer: call it with the owner alone.
+        """
+        wanted = tuple(quantity.measure for quantity in quantities)
+        self._watches[owner] = (wanted, singular_values)
+        measures = dict.fromkeys(measure for these, _ in self._watches.values() for measure in these)
+        watched = Watch(
+            tuple(sorted(measures, key=lambda measure: measure.id)), any(with_them for _, with_them in self._watches.values())
+        )
+        if watched != self._watched:
+            self._watched = watched
+            self._bridge.post(watched)
 
     # ------------------------------------------------------------------------------------------ choices
 

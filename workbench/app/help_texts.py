@@ -22,6 +22,7 @@ SHORTCUTS = """
 <tr><td>F</td><td>fit all views</td></tr>
 <tr><td>E</td><td>show or hide edges</td></tr>
 <tr><td>Delete</td><td>remove the selected anchor</td></tr>
+<tr><td>Esc</td><td>clear the brush</td></tr>
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
 </table>

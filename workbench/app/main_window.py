@@ -29,6 +29,7 @@ from workbench.app.progress_bar import ProgressLine
 from workbench.app.quantities import LIVE_QUANTITIES, ColourRange
 from workbench.app.reporter import Reporter
 from workbench.app.settings import Settings
+from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.status_line import StatusLine
 from workbench.app.style import style_sheet
 from workbench.app.theme import Theme, ThemeSwitch
@@ -62,13 +63,14 @@ class MainWindow(QMainWindow):
         self.bridge = EngineBridge(make_worker)
         self.document = Document(self.bridge)
         self.history = History()
+        self.brush = SimplexBrush(self)
         self.actions_by_name = make_actions(self, self.theme)
         self._make_centre()
         self._make_docks()
         self._make_status()
         self.turns = PanelTurns()
         self.presenter = Presenter(
-            self.document, self.source.view, self.target.view, self.maps, self.ranges, self.turns
+            self.document, self.source.view, self.target.view, self.maps, self.ranges, self.turns, self.brush
         )
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
@@ -194,7 +196,7 @@ class MainWindow(QMainWindow):
     def _extend_history(self) -> None:
         snapshot = self.document.snapshot
         assert snapshot is not None
-        self.history.extend(snapshot.rows or (snapshot.row,))
+        self.history.extend(snapshot.rows)
 
     def _restart_history(self) -> None:
         self.history.clear()

@@ -35,7 +35,7 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])
     view = bar.addMenu("&View")
-    for name in ("fit", "edges", "lock"):
+    for name in ("fit", "edges", "lock", "unbrush"):
         view.addAction(actions[name])
     view.addSeparator()
     _add_themes(window, view.addMenu("&Appearance"))

@@ -10,7 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
 from workbench.app.panel_turns import PanelTurns
-from workbench.app.quantities import ColourRange
+from workbench.app.quantities import CONFORMAL_FACTOR, ColourRange
+from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.geometry import DisplayFrame, Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import PATTERNS
@@ -35,9 +36,11 @@ class Presenter(QObject):
         maps: list[ColourMapDock],
         ranges: dict[str, ColourRange],
         turns: PanelTurns,
+        brush: SimplexBrush,
     ) -> None:
         super().__init__()
         self._document = document
+        self._brush = brush
         self.source = source
         self.target = target
         self._maps = maps
@@ -60,10 +63,12 @@ class Presenter(QObject):
         document.history_restarted.connect(self._start_again)
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
+        brush.changed.connect(self._show_brush)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         for id, colour_range in ranges.items():
             colour_range.changed.connect(partial(self._range_changed, id))
+        document.watch("views", (*(dock.colour_range.quantity for dock in maps), CONFORMAL_FACTOR))
         self.clear()
 
     # ------------------------------------------------------------------------------------------ meshes
@@ -81,6 +86,7 @@ class Presenter(QObject):
         loaded = self._document.loaded
         assert loaded is not None
         self.clear()
+        self._brush.clear()
         geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices)
         surface = self.source.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
@@ -209,6 +215,16 @@ class Presenter(QObject):
                 self._late_marks.start()
         else:
             self._draw_marks()
+
+    def _show_brush(self) -> None:
+        """Mark the brushed simplices in every view; the panels follow the target in turns."""
+        for view in (self.source, self.target, *(dock.view for dock in self._maps)):
+            if view.surface is not None:
+                view.surface.show_brushed(self._brush.simplices)
+        self.target.refresh()
+        self._turns.take_map()
+        if not self.target.is_shown():
+            self._turns.main_is_drawn()
 
     def stop(self) -> None:
         self._late_marks.stop()

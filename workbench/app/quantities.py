@@ -8,6 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.core.arrays import Floats
+from workbench.core.measure import Measure
 
 
 @dataclass(frozen=True)
@@ -23,6 +24,13 @@ class Quantity:
     formula: str
     least: float
     least_span: float = 0.1
+    parameters: tuple[tuple[str, float], ...] = ()
+    text: str = ""
+
+    @property
+    def measure(self) -> Measure:
+        """What the engine computes for it."""
+        return Measure(self.text or self.id, self.parameters)
 
 
 LIVE_QUANTITIES: tuple[Quantity, ...] = (
@@ -30,6 +38,8 @@ LIVE_QUANTITIES: tuple[Quantity, ...] = (
     Quantity("condition-number", "Condition number", "(29)", "σ₁ / σ₂", 1.0),
     Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0),
 )
+
+CONFORMAL_FACTOR = Quantity("average-singular-value", "Average singular value", "(78)", "(σ₁ + σ₂) / 2", 0.0)
 
 STEPS = (1.0, 2.0, 5.0)
 

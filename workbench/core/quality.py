@@ -2,45 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from workbench.core.arrays import Booleans, Floats, Integers
-from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
+from workbench.core.arrays import Floats, Integers
+from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
+from workbench.core.jacobians import build_elements, determinants, signed_singular_values
 from workbench.core.mesh import Mesh
 
-LIVE_MEASURES = ("dirichlet", "condition-number", "symmetric-dirichlet")
-"""Distortions whose colour maps are always live: (25), (29), (32)."""
 HISTOGRAM_BINS = 64
 DEGENERATE = 1e-12
 """A simplex is degenerate where |det J| is at most this part of sigma_1^n."""
-
-
-@dataclass(frozen=True, eq=False)
-class LiveMeasures:
-    """What the window shows of every map: float32 fields by id, the inverted simplices, the histogram of (78)."""
-
-    fields: dict[str, Any]
-    inverted: Booleans
-    histogram: tuple[Floats, Integers]
-
-
-def live_measures(elements: Elements, positions: Floats) -> LiveMeasures:
-    """Fields (m,) of `LIVE_MEASURES` on the unsigned singular values, as float32; releases the interpreter lock mostly."""
-    from workbench.core.registry import registry
-
-    sigma = signed_singular_values(elements, positions)
-    inverted = ~(sigma[:, -1] > 0)
-    sizes = np.abs(sigma)
-    known = registry().distortions
-    fields = {}
-    for id in LIVE_MEASURES:
-        if id in known:
-            raw = known[id].compiled(elements.dimension).value.evaluate(sizes)[:, 0]
-            fields[id] = np.minimum(raw, np.finfo(np.float32).max).astype(np.float32)
-    return LiveMeasures(fields, inverted, average_histogram(sizes.mean(axis=1)))
 
 
 def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
@@ -52,10 +25,9 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
     low, high = np.partition(finite, ranks)[list(ranks)]
     if high - low <= 1e-9 * max(abs(high), 1e-300):
         low, high = low - 0.5 * max(abs(low), 1e-12), high + 0.5 * max(abs(high), 1e-12)
-    edges = np.linspace(low, high, HISTOGRAM_BINS + 1)
-    places = np.clip((finite - low) * (HISTOGRAM_BINS / (high - low)), 0, HISTOGRAM_BINS - 1).astype(np.int64)
-    counts = np.bincount(places, minlength=HISTOGRAM_BINS)
-    return edges, counts.astype(np.int64)
+    places = bin_of(finite, float(low), float(high), HISTOGRAM_BINS)
+    counts = weight_in_bins(places, HISTOGRAM_BINS)
+    return bin_edges(float(low), float(high), HISTOGRAM_BINS), counts.astype(np.int64)
 
 
 def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:

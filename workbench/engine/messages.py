@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.run import HistoryRow
@@ -125,6 +126,18 @@ class Restore(Command):
 
 
 @dataclass(frozen=True)
+class Watch(Command):
+    """What snapshots shall carry from now on, in place of what was watched before; the map at rest is reported anew.
+
+    `measures` become `Snapshot.fields` by their ids, `singular_values` whether `Snapshot.singular_values` is made.
+    What cannot be made of the mesh is left out, and refused with a sentence.
+    """
+
+    measures: tuple[Measure, ...] = ()
+    singular_values: bool = False
+
+
+@dataclass(frozen=True)
 class Quit(Command):
     """End the engine process."""
 
@@ -214,11 +227,11 @@ class Snapshot(Report):
     status : Status           `status.value` is the sentence; RUNNING while it runs
     row : HistoryRow          seconds are those spent in steps since the last Reset
     inverted : (m,) bool      det <= 0
-    fields : dict             display scalars by id, each (m,) float32; see `workbench.core.quality.LIVE_MEASURES`
-    histogram : (edges, counts)   of the average singular value (78)
+    fields : dict             what is watched (see `Watch`), by the measure's id, each (m,) float32
     anchor_serial : int       of the newest `SetAnchors` that this map has taken up
     limiting_simplex : int    simplex that bounds the step while an anchor lags, else -1
     seconds_published : float `time.perf_counter()` clock of the machine when it was published
+    singular_values : (m, n)  float32, signed, where someone watches them, else None
     timing : dict             seconds by part (assemble, factorise, solve, line_search) of the last step
     """
 
@@ -230,11 +243,11 @@ class Snapshot(Report):
     row: HistoryRow
     inverted: Booleans
     fields: dict[str, Any]
-    histogram: tuple[Floats, Integers]
     anchor_serial: int = 0
     limiting_simplex: int = -1
     seconds_published: float = 0.0
     timing: dict[str, float] = field(default_factory=dict)
     solver: str = ""
     distortion: str = ""
-    rows: tuple[HistoryRow, ...] = ()  # every row since the snapshot before, oldest first
+    rows: tuple[HistoryRow, ...] = ()  # every row since the snapshot before, oldest first; none where nothing was stepped
+    singular_values: Any = None

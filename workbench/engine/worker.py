@@ -40,6 +40,7 @@ from workbench.engine.messages import (
     SetSolver,
     Snapshot,
     Step,
+    Watch,
 )
 from workbench.engine.priority import run_child
 from workbench.engine.process import engine_main
@@ -68,7 +69,7 @@ class EngineWorker:
         """`wake` is called on the worker's thread when reports wait.
 
         `on_snapshot` (tests, benchmarks) is told every map that is read, on the worker's thread; `with_fields` false leaves
-        out the colour fields and the histogram; `threads` is the kernels' thread count in the child, 0 for its default;
+        out all that is watched; `threads` is the kernels' thread count in the child, 0 for its default;
         `gives_way` runs the children at low priority, for a window that draws beside them.
         """
         self._wake = wake
@@ -102,6 +103,7 @@ class EngineWorker:
         self._running: Run | None = None
         self._crashes = 0
         self._unread_rows: tuple[Any, ...] = ()
+        self._watch = Watch()
 
     # ------------------------------------------------------------------------- called by the window's thread
 
@@ -199,8 +201,9 @@ class EngineWorker:
             commands = self._outbox.take_all()
         for command in commands:
             self._remember(command)
-        if commands:
-            self._send(*commands)
+        for_child = [command for command in commands if not isinstance(command, Watch)]
+        if for_child:
+            self._send(*for_child)
 
     def _send(self, *commands: Command) -> None:
         assert self._sender is not None
@@ -216,6 +219,18 @@ class EngineWorker:
             self._running = None
         elif isinstance(command, Load):
             self._loading = command
+        elif isinstance(command, Watch):
+            self._watch = command
+            self._begin_to_watch()
+
+    def _begin_to_watch(self) -> None:
+        """Snapshots carry what is watched, beginning with the map that is there."""
+        if self._colours is None:
+            return
+        for sentence in self._colours.watch(self._watch.measures, self._watch.singular_values):
+            self._report(Refused(self._generation, "Watch", sentence))
+        if self._last_map is not None:
+            self._publish(self._last_map, is_news=False)
 
     # ------------------------------------------------------------------------------------------ reports
 
@@ -256,6 +271,7 @@ class EngineWorker:
             for kind in (SetAnchors, Reset):
                 self._settings.pop(kind, None)
             self._colours = LiveColours(build_elements(report.mesh))
+            self._begin_to_watch()
             self._start_corrector()
             with self._lock:
                 self._snapshot = None
@@ -275,9 +291,17 @@ class EngineWorker:
         self._last_map = replace(report, positions=positions)
         if time.monotonic() - self._spawned_at > STEADY:
             self._crashes = 0
+        self._publish(self._last_map)
+
+    def _publish(self, report: MapReport, *, is_news: bool = True) -> None:
+        """Hand a map to the window with all that is watched; `is_news` is false for one that was handed over before."""
+        assert self._loaded is not None and self._colours is not None
+        positions = report.positions
         moving = report.phase in ("dragging", "running")
         live = self._colours.of(positions, inverted=report.inverted, moving=moving) if self._with_fields else None
-        rows, self._unread_rows = self._unread_rows, ()
+        rows: tuple[Any, ...] = ()
+        if is_news:
+            rows, self._unread_rows = self._unread_rows, ()
         snapshot = Snapshot(
             generation=report.generation,
             number=report.number,
@@ -287,7 +311,7 @@ class EngineWorker:
             row=report.rows[-1],
             inverted=live.inverted if live else np.zeros(self._loaded.mesh.simplex_count, dtype=bool),
             fields=live.fields if live else {},
-            histogram=live.histogram if live else (np.zeros(2), np.zeros(1, dtype=np.int64)),
+            singular_values=live.singular_values if live else None,
             anchor_serial=report.anchor_serial,
             limiting_simplex=report.limiting_simplex,
             seconds_published=report.seconds_published,

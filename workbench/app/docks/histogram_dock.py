@@ -8,7 +8,9 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QDockWidget, QWidget
 
 from workbench.app.docks.plots import calm, paint_axes
+from workbench.app.quantities import CONFORMAL_FACTOR
 from workbench.app.theme import Theme
+from workbench.core.quality import average_histogram
 from workbench.engine.messages import Snapshot
 
 
@@ -49,9 +51,10 @@ class HistogramDock(QDockWidget):
         self.plot.setYRange(0.0, 1.0)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        edges, counts = snapshot.histogram
-        if len(edges) != len(counts) + 1 or not len(counts):
+        values = snapshot.fields.get(CONFORMAL_FACTOR.id)
+        if values is None:
             return
+        edges, counts = average_histogram(values)
         self.counts = np.asarray(counts)
         self._bars.setData(np.asarray(edges, dtype=np.float64), np.asarray(counts, dtype=np.float64))
         low, high = float(edges[0]), float(edges[-1])

@@ -1,4 +1,4 @@
-"""The actors of one view: triangles with a colour each, inverted ones outlined, cut edges."""
+"""The actors of one view: triangles with a colour each, inverted ones outlined, cut edges, brushed ones marked."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of, surface_actor
+from workbench.app.views.brush_mark import BrushMark
 from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
@@ -41,19 +42,20 @@ class Surface:
         self._texture_points: NDArray[np.float32] | None = None
         self._texture_data: Any = None
         self._pattern: Pattern | None = None
-        self._mapper = _mapper(self._polydata)
+        self._mapper = mapper_of(self._polydata)
         self._mapper.SetScalarModeToUseCellData()
         self._mapper.SetColorModeToMapScalars()
         self._mapper.UseLookupTableScalarRangeOn()
-        self._actor: Any = _actor(self._mapper)
+        self._actor: Any = actor_of(self._mapper)
         self._inverted = vtkPolyData()
         self._inverted.SetPoints(geometry.vtk_points)
         self._inverted_actor = _inverted_actor(self._inverted)
         self._inverted_rows: Integers = np.empty(0, np.int64)
         self._cut = vtkPolyData()
         self._cut.SetPoints(geometry.vtk_points)
-        self._cut_actor = _line_actor(self._cut, CUT, 3.0, -12.0)
-        self.actors = (self._actor, self._inverted_actor, self._cut_actor)
+        self._cut_actor = line_actor(self._cut, CUT, 3.0, nearer=12.0)
+        self._brush = BrushMark(geometry)
+        self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors)
         self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
         self.show_plain()
 
@@ -153,60 +155,23 @@ class Surface:
             return
         self._inverted_rows = rows
         self._inverted_actor.SetVisibility(len(rows) > 0)
-        self._inverted.SetPolys(_cells(self.geometry.triangles[rows]))
+        self._inverted.SetPolys(cells(self.geometry.triangles[rows]))
 
     def set_cut_edges(self, edges: Integers) -> None:
         """Edges (k, 2) that a cut opened: green."""
         self._cut_actor.SetVisibility(len(edges) > 0)
-        self._cut.SetLines(_cells(edges))
+        self._cut.SetLines(cells(edges))
+
+    def show_brushed(self, triangles: Integers) -> None:
+        """Rows (k,) of the triangles that are brushed: tinted and outlined, above all others."""
+        self._brush.show(triangles)
 
 
-def _cells(rows: Integers) -> vtkCellArray:
-    """Cells of equal size, one a row."""
-    cells = vtkCellArray()
-    flat = np.ascontiguousarray(rows, dtype=np.int64).ravel()
-    cells.SetData(rows.shape[1], numpy_to_vtkIdTypeArray(flat, deep=1))
-    return cells
-
-
-def _mapper(polydata: vtkPolyData) -> vtkPolyDataMapper:
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(polydata)
-    return mapper
-
-
-def _actor(mapper: vtkPolyDataMapper) -> vtkActor:
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    return actor
-
-
-def _inverted_actor(polydata: vtkPolyData) -> vtkActor:
-    """Yellow with dark edges, a little nearer to the eye than what lies there."""
-    mapper = _mapper(polydata)
-    mapper.ScalarVisibilityOff()
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -6.0)
-    actor = _actor(mapper)
+def _inverted_actor(polydata: vtkPolyData) -> Any:
+    """Yellow with dark edges."""
+    actor = surface_actor(polydata, INVERTED, nearer=6.0)
     style = actor.GetProperty()
-    style.SetColor(*INVERTED)
-    style.LightingOff()
     style.EdgeVisibilityOn()
     style.SetEdgeColor(*INVERTED_OUTLINE)
     style.SetLineWidth(1.4)
-    actor.SetVisibility(False)
-    return actor
-
-
-def _line_actor(polydata: vtkPolyData, colour: tuple[float, float, float], width: float, offset: float) -> vtkActor:
-    """Lines that lie in triangles: drawn a little nearer to the eye than these."""
-    mapper = _mapper(polydata)
-    mapper.ScalarVisibilityOff()
-    mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, offset)
-    actor = _actor(mapper)
-    actor.GetProperty().SetColor(*colour)
-    actor.GetProperty().SetLineWidth(width)
-    actor.GetProperty().LightingOff()
-    actor.SetVisibility(False)
     return actor
