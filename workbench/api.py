@@ -7,7 +7,8 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
 from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
-from workbench.core.descent import derivatives_at, descend, is_finite
+from workbench.core.descent import Derivatives, derivatives_at, descend, is_finite
+from workbench.core.descent_solver import DescentSolver, direction_in_laplacian, direction_in_metric, grown_step
 from workbench.core.disc_boundary import BoundaryShape, convex_outline, disc_boundary
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Evaluation
@@ -26,6 +27,7 @@ from workbench.core.linear_maps import (
 from workbench.core.linear_solver import SingularMatrixError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind, Parameter, parameter
+from workbench.core.metrics import killing_energy, reweighted_laplacian
 from workbench.core.problem import Problem
 from workbench.core.run import RunResult, run
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
@@ -46,6 +48,8 @@ __all__ = [
     "Anchors",
     "BoundaryShape",
     "DefiniteFactor",
+    "Derivatives",
+    "DescentSolver",
     "Distortion",
     "Evaluation",
     "Floats",
@@ -74,10 +78,14 @@ __all__ = [
     "cotangent_weights",
     "derivatives_at",
     "descend",
+    "direction_in_laplacian",
+    "direction_in_metric",
     "dirichlet_matrix",
     "disc_boundary",
+    "grown_step",
     "harmonic_extension",
     "is_finite",
+    "killing_energy",
     "laplacian",
     "largest_step",
     "largest_step_without_inversion",
@@ -86,6 +94,7 @@ __all__ = [
     "match_source_frame",
     "never",
     "parameter",
+    "reweighted_laplacian",
     "run",
     "signed_areas",
     "solve_with_fixed",

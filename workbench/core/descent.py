@@ -76,6 +76,7 @@ def descend(
         search = problem.energy_and_inverted
         most = problem.most_inverted(state.inverted)
         found = armijo(search, x, direction, energy, slope, first, interrupt, furthest=furthest, most_inverted=most)
+    problem.workspace.counts["trials"] += found.trials
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     if found.size == 0.0:

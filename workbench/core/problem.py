@@ -186,11 +186,16 @@ class Problem:
                 return result
             offset = positions[vertices] - targets
             result.gradient[vertices] += 2.0 * weights[:, None] * offset
-            if order == 2 and result.hessian_values is not None:
-                d, pattern = self.dimension, density.pattern
-                coordinates = pattern.place[vertices][:, None] * d + np.arange(d)
-                result.hessian_values[pattern.diagonal[coordinates]] += 2.0 * weights[:, None]
+            if result.hessian_values is not None:
+                self.add_soft_anchors(result.hessian_values)
             return replace(result, energy=result.energy + float(weights @ (offset**2).sum(axis=1)))
+
+    def add_soft_anchors(self, values: Floats) -> None:
+        """Add the Hessian of the soft anchors' penalties to `values` (nnz,) on the pattern."""
+        vertices, _, weights = self.anchors.soft
+        d, pattern = self.dimension, self.density.pattern
+        coordinates = pattern.place[vertices][:, None] * d + np.arange(d)
+        values[pattern.diagonal[coordinates]] += 2.0 * weights[:, None]
 
     def energy_and_inverted(self, positions: Floats) -> tuple[float, int]:
         """(energy, inverted count), soft anchors included; +inf where a barrier distortion meets an inversion."""
