@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -12,8 +12,9 @@ import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import FormulaError, WorkbenchError
-from workbench.core.formula import CompiledFormula, compile_formula, names_in_formula
+from workbench.core.formula import CompiledFormula, compile_formula, has_logarithm, names_in_formula
 from workbench.core.method import KINDS, Kind, Parameter
+from workbench.core.tape import Tape
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,9 @@ class Distortion:
     barrier : bool | None  whether D counts as +inf on det <= 0; None: decided from the formula at sigma_n = 0
     citation, short : str  source with its equation; short name
     description : str      what it is good for, for tool tips
+    formula_on_inverted : str   the formula, without its barrier, for simplices that are inverted at the start; a barrier then
+                           holds on the others only. Where there is no start, the sign of the last singular value decides
+    is_logarithm : bool    the logarithm of the formula is meant (see `logarithm`)
     """
 
     id: str
@@ -42,6 +46,8 @@ class Distortion:
     short: str = ""
     description: str = ""
     kinds: tuple[Kind, ...] = KINDS
+    formula_on_inverted: str = ""
+    is_logarithm: bool = False
 
     def with_values(self, values: Mapping[str, Any]) -> Distortion:
         """The same distortion with other parameter values. Raises `WorkbenchError` for unknown names or ranges."""
@@ -51,18 +57,7 @@ class Distortion:
             if name not in form:
                 raise WorkbenchError(f"{self.label} has no parameter {name!r}; it has: {', '.join(form) or 'none'}.")
             checked[name] = float(form[name].check(value))
-        return Distortion(
-            self.id,
-            self.label,
-            self.formula,
-            self.parameters,
-            checked,
-            self.barrier,
-            self.citation,
-            self.short,
-            self.description,
-            self.kinds,
-        )
+        return replace(self, values=checked)
 
     @property
     def parameter_values(self) -> dict[str, float]:
@@ -76,8 +71,29 @@ class Distortion:
     def compiled(self, dimension: int) -> CompiledFormula:
         """The formula compiled for n = `dimension`. Raises `FormulaError`."""
         if dimension not in self._compiled:
-            self._compiled[dimension] = compile_formula(self.formula, dimension, self.parameter_values, _formula_of)
+            self._compiled[dimension] = compile_formula(
+                self.formula,
+                dimension,
+                self.parameter_values,
+                _formula_of,
+                text_on_inverted=self.formula_on_inverted,
+                logarithm=self.is_logarithm,
+            )
         return self._compiled[dimension]
+
+    def logarithm(self, dimension: int) -> Distortion | None:
+        """log D with the same barrier, for a formula that is an exponential; None for any other.
+
+        An exponential overflows on maps far from the minimum; its logarithm has the same order of maps a simplex and does not.
+        """
+        if self.is_logarithm or not has_logarithm(self.compiled(dimension)):
+            return None
+        return replace(self, is_logarithm=True, barrier=self.has_barrier(dimension))
+
+    @property
+    def looks_at_start(self) -> bool:
+        """Whether D depends on which simplices are inverted at the start."""
+        return bool(self.formula_on_inverted)
 
     def has_barrier(self, dimension: int) -> bool:
         """Whether D is +inf on det <= 0."""
@@ -86,7 +102,7 @@ class Distortion:
         # Infinite, undefined or steeper than any power root as sigma_n -> 0 with the others at 1.
         sigma = np.ones((2, dimension))
         sigma[:, -1] = (0.0, 1e-200)
-        values = self.compiled(dimension).value.evaluate(sigma)[:, 0]
+        values = self._raw(self.compiled(dimension).value, sigma)[:, 0]
         return bool(not np.isfinite(values[0]) or not np.isfinite(values[1]))
 
     def value(self, sigma: Floats) -> Floats:
@@ -107,10 +123,10 @@ class Distortion:
         n = sigma.shape[1]
         compiled = self.compiled(n)
         tape = (compiled.value, compiled.gradient, compiled.hessian)[order]
-        raw = tape.evaluate(np.abs(sigma))
+        raw = self._raw(tape, sigma)
         sign = np.where(sigma < 0, -1.0, 1.0)
         value = raw[:, 0].copy()
-        if self.has_barrier(n):
+        if self.has_barrier(n) and not self.looks_at_start:
             value[np.prod(sigma, axis=1) <= 0] = np.inf
         result: list[Floats] = [value]
         if order >= 1:
@@ -124,6 +140,12 @@ class Distortion:
                     column += 1
             result.append(hessian)
         return tuple(result)
+
+    def _raw(self, tape: Tape, sigma: Floats) -> Floats:
+        if not self.looks_at_start:
+            return tape.evaluate(np.abs(sigma))
+        # without a start to look at, the sign that a simplex has now stands for the one that it had
+        return tape.evaluate(np.column_stack([np.abs(sigma), np.where(sigma[:, -1] >= 0, 1.0, 0.0)]))
 
     @staticmethod
     def resolve(text: str, values: Mapping[str, Any] | None = None) -> Distortion:

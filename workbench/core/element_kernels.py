@@ -2,7 +2,13 @@
 
 Each kernel works on the simplices [start, stop) and adds into buffers of its own, so that a few threads share the work and
 the sum is taken in a fixed order. Within a block: edges -> signed singular values -> the formula's tape -> assembly.
-Hessian in J-space: the block D_ij on span(u_i v_i^T), and a twist and a flip for each pair (MATH: isotropic eigensystem).
+Hessian in J-space: the block D_ij on span(u_i v_i^T), and a twist and a flip for each pair (the isotropic eigensystem).
+
+Where D_i and D_j differ at sigma_i = sigma_j (max(sigma), say), D has a kink there: along any way through the tie it runs like
+(D_i - D_j) |sigma_i - sigma_j| / 2, the length of a vector, so the flip eigenvalue tends to infinity and the second derivative
+across is 0 up to the tie. Within the part `SWITCH` of sigma_1 that length is replaced by Huber's function, a parabola: at the tie
+itself the derivative is the mean of D_i and D_j, the subgradient that no rotation changes. A projected Hessian moreover takes the
+flip eigenvalue across the tie too, as iteratively reweighted least squares does: Newton steps then end at the tie.
 """
 
 from __future__ import annotations
@@ -12,6 +18,7 @@ import math
 import numba
 import numpy as np
 
+from workbench.core.expression import SWITCH
 from workbench.core.jacobians import target_edges_3d
 from workbench.core.singular_values import determinant_3x3, half_angle, signed_svd_2x2, signed_svd_3x3
 from workbench.core.tape import run_tape
@@ -21,8 +28,13 @@ TIE = 1e-7
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
-def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrier, start, stop):  # type: ignore[no-untyped-def]
-    """Energy of triangles [start, stop): (sum w D, inverted count); +inf at the first inverted one of a barrier."""
+def energy_2d(  # type: ignore[no-untyped-def]
+    x, simplices, inverse_rest, weights, kept, code, outputs, memory, barrier, start, stop
+):
+    """Energy of triangles [start, stop): (sum w D, inverted count); +inf at the first inverted one of a barrier.
+
+    kept : (m,) or (0,) float64    1 where a simplex keeps its barrier, 0 where it has none; empty: all keep it
+    """
     lanes = memory.shape[1]
     energy = 0.0
     inverted = 0
@@ -38,7 +50,7 @@ def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
             det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
             if not det > 0.0:
                 inverted += 1
-                if barrier:
+                if barrier and (len(kept) == 0 or kept[e] > 0.5):
                     return math.inf, inverted
             a, b = p0 * m00 + q0 * m10, p0 * m01 + q0 * m11
             c, d = p1 * m00 + q1 * m10, p1 * m01 + q1 * m11
@@ -47,6 +59,8 @@ def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
             s1 = 0.5 * (alpha + beta)
             memory[0, lane] = s1
             memory[1, lane] = abs(det) / s1 if s1 > 0.0 else 0.0
+            if len(kept):
+                memory[2, lane] = kept[e]
         run_tape(code, memory)
         row = memory[outputs[0]]
         for lane in range(count):
@@ -55,7 +69,9 @@ def energy_2d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
-def energy_3d(x, simplices, inverse_rest, weights, code, outputs, memory, barrier, start, stop):  # type: ignore[no-untyped-def]
+def energy_3d(  # type: ignore[no-untyped-def]
+    x, simplices, inverse_rest, weights, kept, code, outputs, memory, barrier, start, stop
+):
     """Energy of tetrahedra [start, stop): see `energy_2d`."""
     lanes = memory.shape[1]
     energy = 0.0
@@ -69,11 +85,13 @@ def energy_3d(x, simplices, inverse_rest, weights, code, outputs, memory, barrie
             det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
             if not det > 0.0:
                 inverted += 1
-                if barrier:
+                if barrier and (len(kept) == 0 or kept[e] > 0.5):
                     return math.inf, inverted
             _jacobian_3d(D, inverse_rest, e, J)
             signed_svd_3x3(J, U, s, V)
             memory[0, lane], memory[1, lane], memory[2, lane] = s[0], s[1], abs(s[2])
+            if len(kept):
+                memory[3, lane] = kept[e]
         run_tape(code, memory)
         row = memory[outputs[0]]
         for lane in range(count):
@@ -90,11 +108,12 @@ def _jacobian_3d(D, inverse_rest, e, J):  # type: ignore[no-untyped-def]
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def derivatives_2d(  # type: ignore[no-untyped-def]
-    x, simplices, inverse_rest, weights, code, outputs, memory, order, project, slots, start, stop, gradient, values
+    x, simplices, inverse_rest, weights, kept, code, outputs, memory, order, project, kink, slots, start, stop, gradient, values
 ):
     """Energy, gradient and, for order 2, Hessian values of triangles [start, stop).
 
     gradient : (N, 2) added to;  values : (nnz,) added to through slots (m, 21);  returns (energy, inverted count)
+    kept : see `energy_2d`;  kink : whether D is not smooth where singular values are equal (see the head of this file)
     """
     lanes = memory.shape[1]
     frames = np.empty((lanes, 5))  # cosine and sine of U and V, sign of sigma_2
@@ -118,6 +137,8 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             if not det > 0.0:
                 inverted += 1
             memory[0, lane], memory[1, lane] = s1, abs(s2)
+            if len(kept):
+                memory[2, lane] = kept[e]
             frames[lane, 0], frames[lane, 1], frames[lane, 2], frames[lane, 3] = uc, us, vc, vs
             frames[lane, 4] = -1.0 if s2 < 0.0 else 1.0
         run_tape(code, memory)
@@ -125,9 +146,13 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             e = block + lane
             w = weights[e]
             sign = frames[lane, 4]
-            s1, s2 = memory[0, lane], sign * memory[1, lane]
+            s1, s2 = memory[0, lane], memory[1, lane]  # sizes; the sign of the second one comes in below
             energy += w * memory[outputs[0], lane]
-            d1, d2 = memory[outputs[1], lane], sign * memory[outputs[2], lane]
+            d1, d2 = memory[outputs[1], lane], memory[outputs[2], lane]
+            gap = s1 - s2
+            near = SWITCH * s1
+            if kink and gap < near:
+                d1, d2 = 0.5 * (d1 + d2) + 0.5 * (d1 - d2) * (gap / near), 0.5 * (d1 + d2) - 0.5 * (d1 - d2) * (gap / near)
             uc, us, vc, vs = frames[lane, 0], frames[lane, 1], frames[lane, 2], frames[lane, 3]
             m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
             m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
@@ -135,8 +160,8 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             h10, h11 = vc * m00 + vs * m01, vc * m01 - vs * m00
             h20, h21 = vc * m10 + vs * m11, vc * m11 - vs * m10
             # gradient: U diag(D_i) h_j
-            a0, a1 = d1 * h10, d2 * h11
-            b0, b1 = d1 * h20, d2 * h21
+            a0, a1 = d1 * h10, sign * d2 * h11
+            b0, b1 = d1 * h20, sign * d2 * h21
             gj0, gj1 = w * (uc * a0 - us * a1), w * (us * a0 + uc * a1)
             gk0, gk1 = w * (uc * b0 - us * b1), w * (us * b0 + uc * b1)
             i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
@@ -148,9 +173,19 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             gradient[i, 1] -= gj1 + gk1
             if order < 2:
                 continue
-            d11 = memory[outputs[3], lane]
-            d12 = sign * memory[outputs[4], lane]
-            d22 = memory[outputs[5], lane]
+            d11, d12, d22 = memory[outputs[3], lane], memory[outputs[4], lane], memory[outputs[5], lane]
+            total = max(s1 + s2, 1e-300)
+            across = (d1 - d2) / gap if gap > TIE * s1 else d11 - d12
+            if kink:
+                across = (d1 - d2) / max(gap, near, 1e-300)
+                if gap < near or (project and across > 0.5 * (d11 - 2.0 * d12 + d22)):
+                    lift = 0.5 * (across - 0.5 * (d11 - 2.0 * d12 + d22))
+                    d11, d12, d22 = d11 + lift, d12 - lift, d22 + lift
+            d12 *= sign
+            # on an inverted simplex, twist and flip change places
+            lam[2], lam[3] = (d1 + d2) / total, across
+            if sign < 0.0:
+                lam[2], lam[3] = lam[3], lam[2]
             # eigenvectors of the 2x2 block
             mean, half = 0.5 * (d11 + d22), 0.5 * (d11 - d22)
             radius = math.sqrt(half * half + d12 * d12)
@@ -159,11 +194,6 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
             else:
                 bc, bs = 1.0, 0.0
             lam[0], lam[1] = mean + radius, mean - radius
-            total = s1 + s2
-            floor = 1e-12 * s1 + 1e-300
-            lam[2] = (d1 + d2) / (total if total > floor else floor)
-            gap = s1 - s2
-            lam[3] = (d1 - d2) / gap if gap > TIE * s1 else d11 - d12
             if project:
                 for r in range(4):
                     if not lam[r] > 0.0:
@@ -196,7 +226,7 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def derivatives_3d(  # type: ignore[no-untyped-def]
-    x, simplices, inverse_rest, weights, code, outputs, memory, order, project, slots, start, stop, gradient, values
+    x, simplices, inverse_rest, weights, kept, code, outputs, memory, order, project, kink, slots, start, stop, gradient, values
 ):
     """Energy, gradient and, for order 2, Hessian values of tetrahedra [start, stop); slots (m, 78), see `derivatives_2d`."""
     lanes = memory.shape[1]
@@ -208,7 +238,7 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
     H = np.empty((4, 3))
     y = np.empty(3)
     Q, block3 = np.empty((3, 3)), np.empty((3, 3))
-    first = np.empty(3)
+    first, size = np.empty(3), np.empty(3)
     B = np.empty((9, 12))
     lam = np.empty(9)
     scaled = np.empty(9)
@@ -222,16 +252,20 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
             _jacobian_3d(D, inverse_rest, e, J)
             signed_svd_3x3(J, frames_u[lane], signed[lane], frames_v[lane])
             memory[0, lane], memory[1, lane], memory[2, lane] = signed[lane, 0], signed[lane, 1], abs(signed[lane, 2])
+            if len(kept):
+                memory[3, lane] = kept[e]
         run_tape(code, memory)
         for lane in range(count):
             e = block + lane
             w = weights[e]
-            U, V, s = frames_u[lane], frames_v[lane], signed[lane]
-            sign = -1.0 if s[2] < 0.0 else 1.0
+            U, V = frames_u[lane], frames_v[lane]
+            sign = -1.0 if signed[lane, 2] < 0.0 else 1.0
             energy += w * memory[outputs[0], lane]
             for i in range(3):
                 first[i] = memory[outputs[1 + i], lane]
-            first[2] *= sign
+                size[i] = memory[i, lane]
+            if kink:
+                _meet_at_ties(size, first)
             for i in range(3):
                 H[0, i] = 0.0
             for j in range(3):
@@ -243,32 +277,43 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
                 v = simplices[e, j]
                 for c in range(3):
                     gradient[v, c] += w * (
-                        U[c, 0] * first[0] * H[j, 0] + U[c, 1] * first[1] * H[j, 1] + U[c, 2] * first[2] * H[j, 2]
+                        U[c, 0] * first[0] * H[j, 0] + U[c, 1] * first[1] * H[j, 1] + U[c, 2] * sign * first[2] * H[j, 2]
                     )
             if order < 2:
                 continue
             k = 4
             for i in range(3):
                 for j in range(i, 3):
-                    d = memory[outputs[k], lane]
-                    if (i == 2) != (j == 2):
-                        d *= sign
-                    block3[i, j] = block3[j, i] = d
+                    block3[i, j] = block3[j, i] = memory[outputs[k], lane]
                     k += 1
             r = 3
             for i in range(3):
                 for j in range(i + 1, 3):
-                    total, gap = s[i] + s[j], s[i] - s[j]
-                    floor = 1e-12 * s[0] + 1e-300
-                    twist = (first[i] + first[j]) / (total if total > floor else floor)
-                    flip = (first[i] - first[j]) / gap if gap > TIE * s[0] else block3[i, i] - block3[i, j]
-                    lam[r], lam[r + 1] = twist, flip
+                    gap = size[i] - size[j]
+                    along = (first[i] + first[j]) / max(size[i] + size[j], 1e-12 * size[0] + 1e-300)
+                    across = (first[i] - first[j]) / gap if gap > TIE * size[0] else block3[i, i] - block3[i, j]
+                    if kink:
+                        across = (first[i] - first[j]) / max(gap, SWITCH * size[0], 1e-300)
+                        radial = 0.5 * (block3[i, i] - 2.0 * block3[i, j] + block3[j, j])
+                        if gap < SWITCH * size[0] or (project and across > radial):
+                            lift = 0.5 * (across - radial)
+                            block3[i, i] += lift
+                            block3[j, j] += lift
+                            block3[i, j] -= lift
+                            block3[j, i] -= lift
+                    # twist and flip change places where one of the two values is negative
+                    if j == 2 and sign < 0.0:
+                        along, across = across, along
+                    lam[r], lam[r + 1] = along, across
                     for v in range(4):
                         t0, t1 = math.sqrt(0.5) * H[v, j], math.sqrt(0.5) * H[v, i]
                         for c in range(3):
                             B[r, 3 * v + c] = U[c, i] * t0 - U[c, j] * t1
                             B[r + 1, 3 * v + c] = U[c, i] * t0 + U[c, j] * t1
                     r += 2
+            for i in range(2):
+                block3[i, 2] *= sign
+                block3[2, i] *= sign
             symmetric_eigen_3x3(block3, Q)
             for i in range(3):
                 lam[i] = block3[i, i]
@@ -292,6 +337,23 @@ def derivatives_3d(  # type: ignore[no-untyped-def]
                     values[slots[e, slot]] += total
                     slot += 1
     return energy, inverted
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def _meet_at_ties(size, first):  # type: ignore[no-untyped-def]
+    """Draw the D_i of nearly equal singular values to their mean: the whole way at a tie."""
+    near = SWITCH * size[0]
+    if size[0] - size[2] < near:
+        mean = (first[0] + first[1] + first[2]) / 3.0
+        share = (size[0] - size[2]) / near
+        for i in range(3):
+            first[i] = mean + share * (first[i] - mean)
+        return
+    for i in range(2):
+        gap = size[i] - size[i + 1]
+        if gap < near:
+            mean, half = 0.5 * (first[i] + first[i + 1]), 0.5 * (first[i] - first[i + 1]) * (gap / near)
+            first[i], first[i + 1] = mean + half, mean - half
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -10,10 +10,13 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
 from workbench.core.element_kernels import derivatives_2d, derivatives_3d, energy_2d, energy_3d
-from workbench.core.jacobians import Elements
+from workbench.core.jacobians import Elements, determinants
 from workbench.core.pattern import HessianPattern, build_pattern
 from workbench.core.tape import Tape
 from workbench.core.threads import over_ranges
+
+EVERY: Floats = np.empty(0)
+"""No list of simplices that keep their barrier: all do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +34,16 @@ class Evaluation:
 
 @dataclass(frozen=True, eq=False)
 class Energy:
-    """Sum of w D over the simplices of a source."""
+    """Sum of w D over the simplices of a source.
+
+    `kept` : (m,) float64, 1 where the barrier holds and 0 where a simplex was inverted at the start; empty where all keep it
+    """
 
     elements: Elements
     distortion: Distortion
     allow_inversions: bool = False
     _shared: dict[str, HessianPattern] = field(default_factory=dict, repr=False)
+    kept: Floats = field(default_factory=lambda: EVERY, repr=False)
 
     @property
     def pattern(self) -> HessianPattern:
@@ -48,7 +55,13 @@ class Energy:
 
     def with_distortion(self, distortion: Distortion, allow_inversions: bool) -> Energy:
         """The same source with another density: elements and pattern are shared."""
-        return Energy(self.elements, distortion, allow_inversions, self._shared)
+        return replace(self, distortion=distortion, allow_inversions=allow_inversions)
+
+    def from_start(self, positions: Floats) -> Energy:
+        """For a distortion that looks at the start (N, d): the same energy with the barrier of what is inverted there removed."""
+        if not self.distortion.looks_at_start:
+            return self
+        return replace(self, kept=(determinants(self.elements, positions) > 0).astype(np.float64))
 
     @cached_property
     def has_barrier(self) -> bool:
@@ -59,11 +72,11 @@ class Energy:
         e = self.elements
         tape = self.distortion.compiled(e.dimension).value
         kernel = energy_2d if e.dimension == 2 else energy_3d
-        barrier = self.has_barrier
+        barrier, kept = self.has_barrier, self._kept
 
         def work(part: int, start: int, stop: int) -> tuple[float, int]:
             return kernel(  # type: ignore[no-any-return]
-                positions, e.simplices, e.inverse_rest, e.rest_measures,
+                positions, e.simplices, e.inverse_rest, e.rest_measures, kept,
                 tape.code, tape.outputs, tape.registers(), barrier, start, stop,
             )  # fmt: skip
 
@@ -75,21 +88,32 @@ class Energy:
         return self._derivatives(positions, self.distortion.compiled(self.elements.dimension).gradient, 1, False)
 
     def hessian(self, positions: Floats, *, project: bool = True) -> Evaluation:
-        """Energy, gradient and Hessian; `project` makes every simplex's block positive semi-definite."""
-        return self._derivatives(positions, self.distortion.compiled(self.elements.dimension).hessian, 2, project)
+        """Energy, gradient and Hessian; `project` makes every simplex's block positive semi-definite.
+
+        A projected Hessian bounds kinks of D from above, see `workbench.core.element_kernels`; the other one is exact.
+        """
+        compiled = self.distortion.compiled(self.elements.dimension)
+        return self._derivatives(positions, compiled.majoriser if project else compiled.hessian, 2, project)
+
+    @property
+    def _kept(self) -> Floats:
+        if self.distortion.looks_at_start and not len(self.kept):
+            return np.ones(len(self.elements.simplices))
+        return self.kept
 
     def _derivatives(self, positions: Floats, tape: Tape, order: int, project: bool) -> Evaluation:
         e = self.elements
         kernel = derivatives_2d if e.dimension == 2 else derivatives_3d
         slots = self.pattern.slots if order == 2 else np.empty((1, 1), dtype=np.int32)
+        kept, kink = self._kept, self.distortion.compiled(e.dimension).is_kinked_at_ties
         entry_count = self.pattern.entry_count if order == 2 else 1
 
         def work(part: int, start: int, stop: int) -> tuple[float, int, Floats, Floats]:
             gradient = np.zeros((e.vertex_count, e.dimension))
             values = np.zeros(entry_count)
             energy, inverted = kernel(
-                positions, e.simplices, e.inverse_rest, e.rest_measures, tape.code, tape.outputs, tape.registers(),
-                order, project, slots, start, stop, gradient, values,
+                positions, e.simplices, e.inverse_rest, e.rest_measures, kept, tape.code, tape.outputs, tape.registers(),
+                order, project, kink, slots, start, stop, gradient, values,
             )  # fmt: skip
             return energy, inverted, gradient, values
 
@@ -100,6 +124,10 @@ class Energy:
             inverted += other[1]
             gradient += other[2]
             values += other[3]
-        if inverted and self.has_barrier:
+        if inverted and self.has_barrier and self._meets_barrier(positions):
             energy = float("inf")
         return Evaluation(float(energy), int(inverted), gradient, values if order == 2 else None)
+
+    def _meets_barrier(self, positions: Floats) -> bool:
+        """Whether a simplex that keeps its barrier is inverted, given that some simplex is."""
+        return not len(self.kept) or bool((self.kept[determinants(self.elements, positions) <= 0] > 0.5).any())

@@ -2,6 +2,12 @@
 
 A node is an index into the graph; equal operations are one node, so that value, gradient and Hessian of a formula share
 what they have in common and a derivative never grows exponentially. Constants are folded as they appear.
+
+max and min are not differentiable where their arguments meet. There, within a relative distance of `SWITCH`, derivatives are
+those of the function with |a - b| replaced by Huber's function, which is a parabola near 0: at the switch itself that is the
+mean of both sides, a subgradient. A derivative that *majorises* also carries, at any distance, the curvature 1/|a - b| of the
+parabola that touches |a - b| from above, as in iteratively reweighted least squares: a Newton step then stops at the switch
+where the exact second derivative, which is 0 there, would jump across it.
 """
 
 from __future__ import annotations
@@ -28,6 +34,15 @@ class Op(IntEnum):
     MAXIMUM = 12
     MINIMUM = 13
     SELECT = 14  # (a, b, c, d): c where a >= b, else d
+    BLEND = 15  # (a, b, c, d): c where a > b, d where a < b, linear between where they nearly meet
+    SLOPE = 16  # (a, b): derivative of the share of c in a blend by a - b
+    CURVATURE = 17  # (a, b): second derivative of the parabola above max(a, b)
+
+
+SWITCH = 1e-5
+"""Part of |a| + |b| within which a and b count as meeting."""
+LEAST_ABSOLUTE = 1e-9
+"""|a| counts as no less than this where its curvature is bounded from above."""
 
 
 Key = tuple[Op, float, tuple[int, ...]]
@@ -38,9 +53,10 @@ class Graph:
 
     def __init__(self, variable_count: int) -> None:
         self.variable_count = variable_count
+        self.input_count = variable_count
         self.nodes: list[Key] = []
         self._index: dict[Key, int] = {}
-        self._derivatives: dict[tuple[int, int], int] = {}
+        self._derivatives: dict[tuple[int, int, bool], int] = {}
         self.zero = self.constant(0.0)
         self.one = self.constant(1.0)
         self.variables = [self._node(Op.VARIABLE, float(i), ()) for i in range(variable_count)]
@@ -54,6 +70,11 @@ class Graph:
 
     def constant(self, value: float) -> int:
         return self._node(Op.CONSTANT, float(value) + 0.0, ())
+
+    def datum(self) -> int:
+        """A further input, a number a simplex that is no singular value; it comes after the variables."""
+        self.input_count += 1
+        return self._node(Op.VARIABLE, float(self.input_count - 1), ())
 
     def constant_value(self, node: int) -> float | None:
         """Value of a constant node, None for any other."""
@@ -169,21 +190,32 @@ class Graph:
         folded = self._folded(Op.MINIMUM, a, b)
         return self._node(Op.MINIMUM, 0.0, (a, b)) if folded is None else folded
 
+    @property
+    def has_switches(self) -> bool:
+        """Whether some expression is not differentiable where two arguments meet."""
+        return any(op in (Op.MAXIMUM, Op.MINIMUM, Op.ABS) for op, _, _ in self.nodes)
+
     def select(self, a: int, b: int, then: int, otherwise: int) -> int:
         """`then` where a >= b, else `otherwise`."""
         if then == otherwise:
             return then
         return self._node(Op.SELECT, 0.0, (a, b, then, otherwise))
 
+    def blend(self, a: int, b: int, then: int, otherwise: int) -> int:
+        """`then` where a > b, `otherwise` where a < b, a mean of both where they nearly meet."""
+        if then == otherwise:
+            return then
+        return self._node(Op.BLEND, 0.0, (a, b, then, otherwise))
+
     # ----------------------------------------------------------------------------------- derivatives
 
-    def derivative(self, node: int, variable: int) -> int:
-        """Partial derivative of `node`; at a tie of max or min that of the first argument."""
+    def derivative(self, node: int, variable: int, *, majorise: bool = False) -> int:
+        """Partial derivative of `node`; `majorise` matters for second derivatives at a switch of max or min."""
         # A graph lists arguments before what uses them, so one pass in order needs no recursion.
         for index in self._reachable(node):
-            if (index, variable) not in self._derivatives:
-                self._derivatives[index, variable] = self._differentiate(index, variable)
-        return self._derivatives[node, variable]
+            if (index, variable, majorise) not in self._derivatives:
+                self._derivatives[index, variable, majorise] = self._differentiate(index, variable, majorise)
+        return self._derivatives[node, variable, majorise]
 
     def _reachable(self, node: int) -> list[int]:
         seen = {node}
@@ -195,13 +227,13 @@ class Graph:
                     stack.append(argument)
         return sorted(seen)
 
-    def _differentiate(self, node: int, variable: int) -> int:
+    def _differentiate(self, node: int, variable: int, majorise: bool) -> int:
         op, value, arguments = self.nodes[node]
-        if op is Op.CONSTANT or op is Op.SIGN:
+        if op is Op.CONSTANT or (op is Op.SIGN and not majorise):
             return self.zero
         if op is Op.VARIABLE:
             return self.one if int(value) == variable else self.zero
-        d = [self._derivatives[a, variable] for a in arguments]
+        d = [self._derivatives[a, variable, majorise] for a in arguments]
         a = arguments[0]
         if all(x == self.zero for x in d):
             return self.zero
@@ -223,11 +255,24 @@ class Graph:
             return self.divide(d[0], a)
         if op is Op.ABS:
             return self.multiply(self.sign(a), d[0])
+        if op is Op.SIGN:
+            return self.divide(d[0], self.maximum(self.abs(a), self.constant(LEAST_ABSOLUTE)))
         if op is Op.MAXIMUM:
-            return self.select(a, arguments[1], d[0], d[1])
+            return self.blend(a, arguments[1], d[0], d[1])
         if op is Op.MINIMUM:
-            return self.select(arguments[1], a, d[0], d[1])
-        return self.select(a, arguments[1], d[2], d[3])
+            return self.blend(arguments[1], a, d[0], d[1])
+        if op is Op.SELECT:
+            return self.select(a, arguments[1], d[2], d[3])
+        if op is Op.BLEND:
+            return self._differentiate_blend(arguments, d, majorise)
+        raise AssertionError(op)  # slopes and curvatures stand in second derivatives only
+
+    def _differentiate_blend(self, arguments: tuple[int, ...], d: list[int], majorise: bool) -> int:
+        a, b, then, otherwise = arguments
+        share = self._node(Op.CURVATURE if majorise else Op.SLOPE, 0.0, (a, b))
+        across = self.multiply(self.subtract(then, otherwise), self.subtract(d[0], d[1]))
+        along = self.blend(a, b, d[2], d[3])
+        return along if across == self.zero else self.add(along, self.multiply(share, across))
 
     def _differentiate_power(self, node: int, base: int, exponent: int, d_base: int, d_exponent: int) -> int:
         total = self.zero

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,7 +38,9 @@ class CompiledFormula:
     """A formula in one dimension n with its parameters bound.
 
     `value` gives D; `gradient` D and D_i; `hessian` D, D_i and D_ij (i <= j, row by row), each a `Tape` in |sigma|.
+    `majoriser` is as `hessian`, with the curvature at switches that a Newton step wants (see `workbench.core.expression`).
     `graph` and `root` are the expression itself, parameters bound, for symbolic analysis.
+    `looks_at_start` : whether the tapes take one input more, 1 where a simplex had a positive orientation at the start.
     """
 
     text: str
@@ -47,6 +50,21 @@ class CompiledFormula:
     value: Tape
     gradient: Tape
     hessian: Tape
+    majoriser: Tape
+    looks_at_start: bool = False
+
+    @cached_property
+    def is_kinked_at_ties(self) -> bool:
+        """Whether D_i and D_j differ where sigma_i = sigma_j: then D is not smooth in the map there (max(sigma), say)."""
+        n = self.dimension
+        points = np.array([[a] * n for a in (0.6, 1.0, 1.7)] + [[1.7] * (n - 1) + [0.6], [1.7] + [0.6] * (n - 1)])
+        data = np.ones((len(points), self.gradient.variable_count - n))
+        first = self.gradient.evaluate(np.hstack([points, data]))[:, 1 : n + 1]
+        ties = np.isclose(points[:, :-1], points[:, 1:], rtol=0.0, atol=0.0)
+        gaps = np.abs(np.diff(first, axis=1))
+        scale = np.abs(first).max(axis=1, keepdims=True) + np.finfo(float).tiny
+        with np.errstate(invalid="ignore"):
+            return bool((ties & (gaps > 1e-9 * scale)).any())
 
 
 def compile_formula(
@@ -54,6 +72,9 @@ def compile_formula(
     dimension: int,
     parameters: Mapping[str, float] | None = None,
     resolve: Callable[[str], tuple[str, Mapping[str, float]] | None] | None = None,
+    *,
+    text_on_inverted: str = "",
+    logarithm: bool = False,
 ) -> CompiledFormula:
     """Check and compile a formula.
 
@@ -63,19 +84,26 @@ def compile_formula(
     dimension : int      n, 2 or 3
     parameters : dict    declared names and their values
     resolve : callable   name with underscores -> (formula, its parameters) of another distortion, or None
+    text_on_inverted : str   a second formula for simplices that are inverted at the start
+    logarithm : bool     compile the logarithm instead, of a formula that is an exponential (see `has_logarithm`)
 
     Raises `FormulaError` with a sentence and the place for everything that is not allowed.
     """
     graph = Graph(dimension)
-    reader = _Reader(graph, dict(parameters or {}), resolve)
-    root = reader.read(text)
-    if isinstance(root, list):
-        raise FormulaError("The result is a vector; it must be one number a simplex: wrap it in sum, max, min or prod.")
-    if not any(graph.nodes[n][0] is Op.VARIABLE for n in graph._reachable(root)):
-        raise FormulaError("The formula is a constant; it must depend on the singular values (sigma, sigma1, ..., det).")
-    _check_values(graph, root, dimension)
+    bound = dict(parameters or {})
+    root = _read_number(graph, bound, resolve, text)
+    if logarithm:
+        root = _logarithm(graph, root) or root
+    if text_on_inverted:
+        other = _read_number(graph, bound, resolve, text_on_inverted)
+        root = graph.select(graph.datum(), graph.one, root, other)
     first = [graph.derivative(root, i) for i in range(dimension)]
-    second = [graph.derivative(first[i], j) for i in range(dimension) for j in range(i, dimension)]
+    pairs = [(i, j) for i in range(dimension) for j in range(i, dimension)]
+    hessian = compile_tape(graph, [root, *first, *(graph.derivative(first[i], j) for i, j in pairs)])
+    majoriser = hessian
+    if graph.has_switches:
+        second = [graph.derivative(first[i], j, majorise=True) for i, j in pairs]
+        majoriser = compile_tape(graph, [root, *first, *second])
     return CompiledFormula(
         text=text,
         dimension=dimension,
@@ -83,8 +111,46 @@ def compile_formula(
         root=root,
         value=compile_tape(graph, [root]),
         gradient=compile_tape(graph, [root, *first]),
-        hessian=compile_tape(graph, [root, *first, *second]),
+        hessian=hessian,
+        majoriser=majoriser,
+        looks_at_start=bool(text_on_inverted),
     )
+
+
+def has_logarithm(compiled: CompiledFormula) -> bool:
+    """Whether a formula is an exponential, up to a positive factor, so that its logarithm cannot overflow where it does."""
+    return _logarithm(compiled.graph, compiled.root) is not None
+
+
+def _logarithm(graph: Graph, root: int) -> int | None:
+    op, _, arguments = graph.nodes[root]
+    if op is Op.EXP:
+        return arguments[0]
+    if op in (Op.MULTIPLY, Op.DIVIDE):
+        for factor, rest in (arguments, arguments[::-1])[: 2 if op is Op.MULTIPLY else 1]:
+            if op is Op.DIVIDE:
+                factor, rest = rest, factor
+            value, exponent = graph.constant_value(factor), _logarithm(graph, rest)
+            if value is not None and value > 0.0 and exponent is not None:
+                shift = graph.constant(math.log(value))
+                return graph.add(exponent, shift) if op is Op.MULTIPLY else graph.subtract(exponent, shift)
+    return None
+
+
+def _read_number(
+    graph: Graph,
+    parameters: dict[str, float],
+    resolve: Callable[[str], tuple[str, Mapping[str, float]] | None] | None,
+    text: str,
+) -> int:
+    """The node of a formula that is one finite number a simplex and not a constant."""
+    root = _Reader(graph, parameters, resolve).read(text)
+    if isinstance(root, list):
+        raise FormulaError("The result is a vector; it must be one number a simplex: wrap it in sum, max, min or prod.")
+    if not any(graph.nodes[n][0] is Op.VARIABLE for n in graph._reachable(root)):
+        raise FormulaError("The formula is a constant; it must depend on the singular values (sigma, sigma1, ..., det).")
+    _check_values(graph, root, graph.variable_count)
+    return root
 
 
 def names_in_formula(text: str) -> tuple[str, ...]:
@@ -101,7 +167,7 @@ def names_in_formula(text: str) -> tuple[str, ...]:
 
 def _check_values(graph: Graph, root: int, dimension: int) -> None:
     tape = compile_tape(graph, [root])
-    points = np.array([p[:dimension] for p in TEST_POINTS])
+    points = np.array([[*p[:dimension], *[1.0] * (tape.variable_count - dimension)] for p in TEST_POINTS])
     values = tape.evaluate(points)[:, 0]
     for point, value in zip(points, values, strict=True):
         if not math.isfinite(value):

@@ -12,7 +12,7 @@ import numba
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
-from workbench.core.expression import Graph, Op
+from workbench.core.expression import SWITCH, Graph, Op
 
 LANES = 128
 """Simplices that go through the machine together."""
@@ -25,7 +25,7 @@ class Tape:
     `code` : (k, 6) int64       operation, destination register, four arguments (registers)
     `constants` : (c,) float64  preset registers `variable_count` .. `variable_count` + c - 1
     `outputs` : (o,) int64      registers that hold the results at the end
-    `register_count`, `variable_count` : int;  the variables are registers 0 .. `variable_count` - 1
+    `register_count`, `variable_count` : int;  the inputs are registers 0 .. `variable_count` - 1
     """
 
     code: Integers
@@ -59,9 +59,9 @@ def compile_tape(graph: Graph, results: list[int]) -> Tape:
             last_use[argument] = position
     keep = set(results)
     constants = [n for n in order if graph.nodes[n][0] is Op.CONSTANT]
-    register = {graph.variables[i]: i for i in range(graph.variable_count)}
-    register.update({n: graph.variable_count + i for i, n in enumerate(constants)})
-    next_register = graph.variable_count + len(constants)
+    register = {n: int(value) for n, (op, value, _) in enumerate(graph.nodes) if op is Op.VARIABLE}
+    register.update({n: graph.input_count + i for i, n in enumerate(constants)})
+    next_register = graph.input_count + len(constants)
     free: list[int] = []
     code = []
     for position, node in enumerate(order):
@@ -84,7 +84,7 @@ def compile_tape(graph: Graph, results: list[int]) -> Tape:
         constants=np.array([graph.nodes[n][1] for n in constants], dtype=np.float64),
         outputs=np.array([register[n] for n in results], dtype=np.int64),
         register_count=next_register,
-        variable_count=graph.variable_count,
+        variable_count=graph.input_count,
     )
 
 
@@ -138,6 +138,25 @@ def run_tape(code, memory):  # type: ignore[no-untyped-def]
             d = memory[code[k, 5]]
             for i in range(lanes):
                 out[i] = c[i] if a[i] >= b[i] else d[i]
+        elif op == 15:
+            c = memory[code[k, 4]]
+            d = memory[code[k, 5]]
+            for i in range(lanes):
+                gap = a[i] - b[i]
+                near = SWITCH * (abs(a[i]) + abs(b[i]))
+                if gap >= near:  # with both at 0: c, as there is nothing to tell them apart by
+                    out[i] = c[i]
+                elif gap <= -near:
+                    out[i] = d[i]
+                else:
+                    out[i] = 0.5 * (c[i] + d[i]) + 0.5 * (gap / near) * (c[i] - d[i])
+        elif op == 16:
+            for i in range(lanes):
+                near = SWITCH * (abs(a[i]) + abs(b[i]))
+                out[i] = 0.5 / near if abs(a[i] - b[i]) < near else 0.0
+        elif op == 17:
+            for i in range(lanes):
+                out[i] = 0.5 / max(abs(a[i] - b[i]), SWITCH * (abs(a[i]) + abs(b[i])), 1e-300)
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
