@@ -10,14 +10,22 @@ from pathlib import PurePath
 from typing import NoReturn
 
 from workbench import __version__
-from workbench.cli import check, doctor, listing, measure, open_window, solve
+from workbench.cli import check, doctor, listing, measure, open_window, refine, solve
 from workbench.core.errors import WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
 EPILOG = "`workbench FILE` opens the window on a mesh; `workbench COMMAND --help` explains a command."
 BAD_INPUT = 2
 
-COMMANDS = {"open": open_window, "list": listing, "solve": solve, "measure": measure, "check": check, "doctor": doctor}
+COMMANDS = {
+    "open": open_window,
+    "list": listing,
+    "solve": solve,
+    "measure": measure,
+    "refine": refine,
+    "check": check,
+    "doctor": doctor,
+}
 
 
 class Parser(argparse.ArgumentParser):

@@ -44,12 +44,10 @@ def _source_and_map(options: argparse.Namespace) -> tuple[Mesh, Floats]:
     from workbench.core.fixes import apply_fixes
     from workbench.core.kinds import resolve_kind, source_for_kind
     from workbench.engine.starts import adjusted_start
-    from workbench.io.opening import SAMPLE, map_from_file, open_source
-    from workbench.io.read import read_mesh
+    from workbench.io.opening import map_from_file, read_source
 
     name, target = options.source, options.target
-    is_sample = name.startswith(SAMPLE)
-    file = open_source(name).file if is_sample else read_mesh(name, tets=options.tets)
+    file = read_source(name, tets=options.tets)
     holds_map = file.map_positions is not None or file.mesh.texture is not None
     if target is None and not holds_map:
         raise MeshError(f"{name} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does.")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +49,19 @@ def check_places(paths: Iterable[str]) -> None:
             raise WorkbenchError(f"There is no folder {path.parent}; make it first, or name another place.")
         if not os.access(path.parent, os.W_OK):
             raise WorkbenchError(f"{text} may not be written (permission denied); name another place.")
+
+
+def teller(quiet: bool) -> Callable[[str], None]:
+    """What takes remarks and progress: standard error, or nothing."""
+    return _silent if quiet else _say
+
+
+def _say(sentence: str) -> None:
+    print(sentence, file=sys.stderr, flush=True)
+
+
+def _silent(sentence: str) -> None:
+    pass
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from workbench.cli.interrupt import InterruptFlag
 from workbench.cli.options import add_solve_options
-from workbench.cli.output import check_places, json_text, number
+from workbench.cli.output import check_places, json_text, number, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 
@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
     from workbench.cli.preparation import prepare
 
     prepared = prepare(options)
-    tell = _silent if options.quiet else _say
+    tell = teller(options.quiet)
     for note in prepared.opened.notes:
         tell(note)
     with InterruptFlag() as interrupt:
@@ -151,11 +151,3 @@ def _summary(report: dict[str, Any], out: str) -> str:
         f"{report['status']} after {report['iterations']} iterations in {report['seconds']['total']:.3g} s: "
         f"mean distortion {number(report['mean_distortion'], 9)}, {report['inverted']} inverted; map in {out}"
     )
-
-
-def _say(sentence: str) -> None:
-    print(sentence, file=sys.stderr, flush=True)
-
-
-def _silent(sentence: str) -> None:
-    pass

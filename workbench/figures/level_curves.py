@@ -36,6 +36,7 @@ def level_curves(curves: Mapping[str, Sequence[LevelMeasures]], title: str = "")
     panels = figure.subplots(rows, columns, squeeze=False).ravel()
     for panel, name in zip(panels, names, strict=False):
         _draw(panel, name, curves)
+    figure.supylabel("mean over the source", fontsize=8)
     for panel in panels[len(names) :]:
         panel.set_axis_off()
     handles, labels = panels[0].get_legend_handles_labels()

@@ -20,7 +20,7 @@ from workbench.io.mesh_file import MeshFile
 from workbench.io.read import read_mesh
 from workbench.io.start_file import fit_dimension, map_from_file
 
-__all__ = ["SAMPLE", "OpenedSource", "UnsuitableSourceError", "map_from_file", "open_source"]
+__all__ = ["SAMPLE", "OpenedSource", "UnsuitableSourceError", "map_from_file", "open_source", "read_source"]
 
 SAMPLE = "sample:"
 """What the name of a sample begins with."""
@@ -76,7 +76,7 @@ def open_source(source: str, *, kind: str = "auto", fixes: Sequence[str] = (), t
     fixes that would help.
     """
     source = str(source)
-    file = _sample(source.removeprefix(SAMPLE)) if source.startswith(SAMPLE) else read_mesh(source, tets=tets)
+    file = read_source(source, tets=tets)
     fixed = apply_fixes(file.mesh, fixes)
     notes = (*file.notes, *fixed.notes)
     lines = (*report_lines(fixed.mesh), *notes)
@@ -106,6 +106,11 @@ def _given_map(file: MeshFile, mesh: Mesh, kind: Kind) -> tuple[Floats | None, I
             raise MeshError(f"{path}: its targets have {targets.shape[1]} columns; the kind {kind} needs another number.")
         targets = frozen(targets[:, :2])
     return start, file.anchor_vertices, targets, ""
+
+
+def read_source(source: str, *, tets: bool = False) -> MeshFile:
+    """What a file, or `sample:ID`, holds, whatever it may be used for. Raises `MeshError`."""
+    return _sample(source.removeprefix(SAMPLE)) if source.startswith(SAMPLE) else read_mesh(source, tets=tets)
 
 
 def _sample(name: str) -> MeshFile:

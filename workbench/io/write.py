@@ -70,9 +70,21 @@ def write_map(
 
 
 def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
-    """Writes a mesh alone, as OBJ (tetrahedra as faces of four corners)."""
-    faces = unfan(mesh.simplices, mesh.polygons) if mesh.dimension == 2 else mesh.simplices.tolist()
-    write_text(path, _rows("v", _in_space(mesh.vertices)) + _faces(faces, str))
+    """Writes a mesh alone, as OBJ (tetrahedra as faces of four corners; triangles with their texture coordinates)."""
+    vertices = _rows("v", _in_space(mesh.vertices))
+    if mesh.texture is not None:
+        corners = np.stack([mesh.simplices, mesh.texture.corners], axis=2) + 1
+        faces = ("f %d/%d %d/%d %d/%d\n" * mesh.simplex_count) % tuple(corners.ravel().tolist())
+        write_text(path, vertices + _rows("vt", mesh.texture.coordinates) + faces)
+        return
+    polygons = unfan(mesh.simplices, mesh.polygons) if mesh.dimension == 2 else mesh.simplices.tolist()
+    write_text(path, vertices + _faces(polygons, str))
+
+
+def write_case(path: str | os.PathLike[str], arrays: Mapping[str, ArrayLike]) -> None:
+    """Writes an npz case of these arrays: `V S X X0 anchors targets`, those that there are."""
+    with replacing(path) as part, part.open("wb") as stream:
+        np.savez_compressed(stream, **{name: np.asarray(values) for name, values in arrays.items()})
 
 
 def obj_text(file_mesh: Mesh, source_mesh: Mesh, positions: Floats, kind: Kind) -> str:
@@ -118,8 +130,7 @@ def _write_npz(
     anchors: Integers = np.asarray([] if vertices is None else vertices, dtype=np.int64)
     targets = np.asarray([] if targets is None else targets, dtype=np.float64)
     targets = targets.reshape(len(anchors), positions.shape[1])
-    with replacing(path) as part, part.open("wb") as stream:
-        np.savez_compressed(stream, V=mesh.vertices, S=mesh.simplices, X=positions, anchors=anchors, targets=targets)
+    write_case(path, {"V": mesh.vertices, "S": mesh.simplices, "X": positions, "anchors": anchors, "targets": targets})
 
 
 def _write_vtu(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
