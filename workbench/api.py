@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from workbench.core.anchor_steps import approach_anchors
 from workbench.core.arrays import Floats, Integers
+from workbench.core.complex_hessian import complex_hessian
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
 from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
@@ -28,7 +29,9 @@ from workbench.core.linear_solver import SingularMatrixError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind, Parameter, parameter
 from workbench.core.metrics import killing_energy, reweighted_laplacian
+from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
+from workbench.core.progressive_reference import progressive_problem
 from workbench.core.run import RunResult, run
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
@@ -62,6 +65,7 @@ __all__ = [
     "LinearConstraints",
     "Mesh",
     "MeshError",
+    "NewtonSolver",
     "Parameter",
     "Problem",
     "RunResult",
@@ -73,6 +77,7 @@ __all__ = [
     "WorkbenchError",
     "approach_anchors",
     "armijo",
+    "complex_hessian",
     "conformal_energy",
     "convex_outline",
     "cotangent_weights",
@@ -94,6 +99,7 @@ __all__ = [
     "match_source_frame",
     "never",
     "parameter",
+    "progressive_problem",
     "reweighted_laplacian",
     "run",
     "signed_areas",
