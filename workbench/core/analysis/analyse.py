@@ -35,7 +35,7 @@ def analyse(distortion: Distortion, dimension: int) -> Analysis:
         dimension=dimension,
         **parts,
         regular=_regular(parts),
-        convex=convexity(density),
+        convex=convexity(density, distortion.has_barrier(dimension)),
     )
 
 

@@ -19,6 +19,12 @@ READABLE = {
 }  # fmt: skip
 """Chords that people can check by hand, tried first."""
 WEIGHTS = (0.25, 0.5, 0.75)
+COUNT, BEST, COPIES = 200, 40, 10
+STEPS = (0.5, 0.2, 0.1, 0.05, 0.02)
+"""Random chords of a kind; how many of the best are improved, by how many copies, moved how far."""
+
+Chords = tuple[Floats, Floats, Floats]
+"""Starts (k, n), ends (k, n), weights of the ends (k,)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,56 +54,86 @@ class Chord:
 def violating_chord(density: Density) -> tuple[Chord | None, int]:
     """(a chord in GL(n) with D above it by more than rounding or None, how many were tried).
 
-    Readable chords come first, then random ones that keep det > 0 at the three points, then any.
+    Readable chords come first, then random ones that keep det > 0 at the three points, then any, then the best ones improved.
     """
     n = density.dimension
-    tried = 0
-    for starts, ends, weights in _families(n):
-        middles = (1.0 - weights)[:, None] * starts + weights[:, None] * ends
-        usable = (np.abs(middles) > 1e-6).all(axis=1)
-        starts, ends, middles, weights = starts[usable], ends[usable], middles[usable], weights[usable]
-        tried += len(starts)
-        excess, margin = _excess(density, starts, middles, ends, weights)
-        found = np.flatnonzero(excess > margin)
-        if len(found):
-            # The first among the readable ones; else the plainest violation.
-            k = int(found[0]) if len(starts) < 100 else int(found[np.argmax((excess / np.maximum(margin, 1e-300))[found])])
-            points = np.array([starts[k], middles[k], ends[k]])
-            return Chord(points, float(weights[k]), density.signed(points)), tried
-    return None, tried
-
-
-def _excess(density: Density, starts: Floats, middles: Floats, ends: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """How far D at the middle lies above the chord, and what rounding may account for; -inf where a value is not finite."""
-    (a, ea), (m, em), (b, eb) = (density.with_rounding(descending(np.abs(q))) for q in (starts, middles, ends))
-    with np.errstate(all="ignore"):
-        excess = m - (1.0 - weights) * a - weights * b
-        margin = 16.0 * (ea + em + eb) + 1e-12 * (np.abs(a) + np.abs(m) + np.abs(b))
-    finite = np.isfinite(excess) & np.isfinite(margin)
-    return np.where(finite, excess, -np.inf), np.where(finite, margin, np.inf)
-
-
-def _families(n: int) -> list[tuple[Floats, Floats, Floats]]:
     generator = np.random.default_rng(83)
     readable = np.array([pair for pair in READABLE[n] for _ in WEIGHTS], dtype=np.float64)
-    families = [(readable[:, 0], readable[:, 1], np.tile(WEIGHTS, len(READABLE[n])))]
-    for even in (True, False):
-        parts = []
-        for reach in (0.3, 1.0, 3.0):
-            for length in (0.1, 1.0, None):
-                starts = np.exp(generator.uniform(-reach, reach, size=(300, n)))
-                if length is None:
-                    signs = generator.choice([-1.0, 1.0], size=(300, n))
-                    if even:
-                        signs[:, -1] = np.prod(signs[:, :-1], axis=1)
-                    ends = signs * np.exp(generator.uniform(-reach, reach, size=(300, n)))
-                else:
-                    ends = starts * (1.0 + length * generator.normal(size=(300, n)))
-                parts.append((starts, ends, generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=300)))
-        starts, ends, weights = (np.concatenate([part[i] for part in parts]) for i in range(3))
-        if even:
-            middles = (1.0 - weights)[:, None] * starts + weights[:, None] * ends
-            keep = (np.prod(ends, axis=1) > 0) & (np.prod(middles, axis=1) > 0)
-            starts, ends, weights = starts[keep], ends[keep], weights[keep]
-        families.append((starts, ends, weights))
-    return families
+    found, tried, _ = _first(density, readable[:, 0], readable[:, 1], np.tile(WEIGHTS, len(READABLE[n])))
+    starts, ends, weights = _random_chords(generator, n)
+    middles = _middles(starts, ends, weights)
+    upright = (np.prod(starts, axis=1) > 0) & (np.prod(middles, axis=1) > 0) & (np.prod(ends, axis=1) > 0)
+    for chosen in (upright, ~upright):
+        if found is None:
+            found, count, excess = _first(density, starts[chosen], ends[chosen], weights[chosen], plainest=True)
+            tried += count
+            best = np.argsort(-excess, kind="stable")[:BEST]
+            for step in STEPS:
+                if found is None:
+                    near = starts[chosen][best], ends[chosen][best], weights[chosen][best]
+                    found, count, _ = _first(density, *_moved(generator, near, step), plainest=True)
+                    tried += count
+    return found, tried
+
+
+def _first(
+    density: Density, starts: Floats, ends: Floats, weights: Floats, plainest: bool = False
+) -> tuple[Chord | None, int, Floats]:
+    """(the first or the plainest violating chord or None, how many there are, how near each is to a violation)."""
+    middles = _middles(starts, ends, weights)
+    (a, ea), (m, em), (b, eb) = (density.with_rounding(descending(np.abs(q))) for q in (starts, middles, ends))
+    with np.errstate(all="ignore"):
+        scale = np.abs(a) + np.abs(m) + np.abs(b)
+        excess = m - (1.0 - weights) * a - weights * b
+        nearness = np.nan_to_num(excess / scale, nan=-np.inf, posinf=-np.inf, neginf=-np.inf)
+        violates = (excess > 16.0 * (ea + em + eb) + 1e-12 * scale) & np.isfinite(scale)
+    violates &= np.minimum(np.abs(middles), np.minimum(np.abs(starts), np.abs(ends))).min(axis=1, initial=np.inf) > 0.0
+    which = np.flatnonzero(violates)
+    if not len(which):
+        return None, len(starts), nearness
+    k = int(which[np.argmax(nearness[which])]) if plainest else int(which[0])
+    points = np.array([starts[k], middles[k], ends[k]])
+    return Chord(points, float(weights[k]), density.signed(points)), len(starts), nearness
+
+
+def _middles(starts: Floats, ends: Floats, weights: Floats) -> Floats:
+    return (1.0 - weights)[:, None] * starts + weights[:, None] * ends
+
+
+def _moved(generator: np.random.Generator, chords: Chords, step: float) -> Chords:
+    """Each chord with some copies whose ends are moved a little."""
+    starts, ends, weights = (np.repeat(part, COPIES, axis=0) for part in chords)
+    starts = starts * np.exp(step * generator.normal(size=starts.shape))
+    return starts, ends * np.exp(step * generator.normal(size=ends.shape)), weights
+
+
+def _random_chords(generator: np.random.Generator, n: int) -> Chords:
+    """Chords near and far, short and long, through zero, and across equal and vanishing singular values."""
+    starts, ends = [], []
+    for reach in (0.1, 1.0, 3.0):
+        q = np.exp(generator.uniform(-reach, reach, size=(5, COUNT, n)))
+        flips = generator.choice([-1.0, 1.0], size=(COUNT, n))
+        starts += [q[0], q[0], q[1], q[2], q[3]]
+        ends += [
+            q[0] * (1.0 + 0.1 * generator.normal(size=(COUNT, n))),
+            q[0] * (1.0 + generator.normal(size=(COUNT, n))),
+            flips * np.exp(generator.uniform(-reach, reach, size=(COUNT, n))),
+            np.roll(q[2], 1, axis=1),  # across a tie: the same singular values in another order
+            np.where(generator.random((COUNT, n)) < 0.5, q[3], -q[3]),
+        ]
+        # Short chords across a vanishing singular value, and across two that are nearly equal.
+        i, j = np.array([generator.permutation(n)[:2] for _ in range(COUNT)]).T
+        every, gap = np.arange(COUNT), 10.0 ** generator.uniform(-5.0, 0.0, size=COUNT)
+        small, signs = q[4].copy(), np.ones((COUNT, n))
+        small[every, i] *= gap
+        signs[every, i] = -1.0
+        starts.append(small)
+        ends.append(small * signs)
+        close = q[4].copy()
+        close[every, i] = close[every, j] * (1.0 + gap)
+        swapped = close.copy()
+        swapped[every, i], swapped[every, j] = close[every, j], close[every, i]
+        starts.append(close)
+        ends.append(swapped)
+    weights = generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=COUNT * len(starts))
+    return np.concatenate(starts), np.concatenate(ends), weights

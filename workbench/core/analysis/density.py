@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,8 +27,8 @@ class Density:
 
     @staticmethod
     def of(distortion: Distortion, dimension: int) -> Density:
-        """The formula of `distortion` for n = `dimension`. Raises `FormulaError`."""
-        compiled = distortion.compiled(dimension)
+        """The formula of `distortion` on simplices that were not inverted at the start. Raises `FormulaError`."""
+        compiled = replace(distortion, formula_on_inverted="").compiled(dimension)
         return Density(compiled.graph, compiled.root)
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -62,8 +62,8 @@ class MirrorPath:
 def pulled_vertex(distortion: Distortion, sides: int = 6, reach: float = 2.2, count: int = 201) -> PulledVertex:
     """Energies of a star of `sides` triangles while its centre moves from 0 to `reach`.
 
-    On an inverted triangle the filtered energy counts the formula without its barrier, see `without_barrier`; on the others,
-    and for a distortion that has no barrier, it is the energy itself.
+    On an inverted triangle the filtered energy counts the distortion's own formula for those, else its formula without the
+    barrier, see `without_barrier`; on the others, and for a distortion that has no barrier, it is the energy itself.
     Raises `WorkbenchError` for less than 3 sides or 2 points.
     """
     if sides < 3 or count < 2 or not math.isfinite(reach):
@@ -78,10 +78,13 @@ def pulled_vertex(distortion: Distortion, sides: int = 6, reach: float = 2.2, co
     positions = np.tile(star, (count, 1, 1))
     positions[:, 0, 0] = offsets
     sigma = np.concatenate([signed_singular_values(elements, x) for x in positions])
-    values = distortion.value(sigma)
+    values = replace(distortion, formula_on_inverted="").value(sigma)
     inverted = sigma[:, -1] <= 0.0
     filtered = values.copy()
-    bare = without_barrier(Density.of(distortion, 2))
+    if distortion.formula_on_inverted:
+        bare = Density.of(replace(distortion, formula=distortion.formula_on_inverted, barrier=False), 2)
+    else:
+        bare = without_barrier(Density.of(distortion, 2))
     filtered[inverted] = bare.signed(sigma[inverted])
     weights = elements.rest_measures
     return PulledVertex(
