@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.energy import Evaluation
+from workbench.core.expression import SWITCH
 from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.solver import ROUNDING, Interrupt
 from workbench.core.state import State
@@ -80,6 +81,9 @@ def descend(
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     if found.size == 0.0:
+        if problem.density.has_kinks and -slope * first <= SWITCH * abs(energy):
+            # what the derivatives promise is below what they round off at a kink: the map is a minimum to that precision
+            return replace(state, iteration=state.iteration + 1, energy=energy, previous_energy=energy, step_size=0.0)
         return replace(state, status=Status.NO_DESCENT)
     following = problem.evaluate(found.positions, 1 if evaluation.hessian_values is None else 2)
     return replace(

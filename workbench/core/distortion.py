@@ -33,7 +33,7 @@ class Distortion:
     description : str      what it is good for, for tool tips
     formula_on_inverted : str   the formula, without its barrier, for simplices that are inverted at the start; a barrier then
                            holds on the others only. Where there is no start, the sign of the last singular value decides
-    is_logarithm : bool    the logarithm of the formula is meant (see `logarithm`)
+    power : float          D is raised to it, or is the logarithm of the formula where it is 0 (see `tempered`)
     """
 
     id: str
@@ -47,7 +47,7 @@ class Distortion:
     description: str = ""
     kinds: tuple[Kind, ...] = KINDS
     formula_on_inverted: str = ""
-    is_logarithm: bool = False
+    power: float = 1.0
 
     def with_values(self, values: Mapping[str, Any]) -> Distortion:
         """The same distortion with other parameter values. Raises `WorkbenchError` for unknown names or ranges."""
@@ -77,18 +77,18 @@ class Distortion:
                 self.parameter_values,
                 _formula_of,
                 text_on_inverted=self.formula_on_inverted,
-                logarithm=self.is_logarithm,
+                power=self.power,
             )
         return self._compiled[dimension]
 
-    def logarithm(self, dimension: int) -> Distortion | None:
-        """log D with the same barrier, for a formula that is an exponential; None for any other.
+    def tempered(self, dimension: int, power: float = 0.0) -> Distortion | None:
+        """D^power, or log D where `power` is 0, with the same barrier, for a formula that is an exponential; else None.
 
-        An exponential overflows on maps far from the minimum; its logarithm has the same order of maps a simplex and does not.
+        An exponential overflows on maps far from the minimum; its logarithm orders simplices alike and does not.
         """
-        if self.is_logarithm or not has_logarithm(self.compiled(dimension)):
+        if not has_logarithm(self.compiled(dimension)):
             return None
-        return replace(self, is_logarithm=True, barrier=self.has_barrier(dimension))
+        return replace(self, power=power, barrier=self.has_barrier(dimension))
 
     @property
     def looks_at_start(self) -> bool:

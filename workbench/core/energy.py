@@ -119,15 +119,25 @@ class Energy:
 
         results = over_ranges(work, len(e.simplices))
         energy, inverted, gradient, values = results[0]
-        for other in results[1:]:
-            energy += other[0]
-            inverted += other[1]
-            gradient += other[2]
-            values += other[3]
-        if inverted and self.has_barrier and self._meets_barrier(positions):
+        with np.errstate(invalid="ignore", over="ignore"):  # an energy that is not finite has a gradient that is not
+            for other in results[1:]:
+                energy += other[0]
+                inverted += other[1]
+                gradient += other[2]
+                values += other[3]
+        if inverted and self.meets_barrier(positions):
             energy = float("inf")
         return Evaluation(float(energy), int(inverted), gradient, values if order == 2 else None)
 
-    def _meets_barrier(self, positions: Floats) -> bool:
-        """Whether a simplex that keeps its barrier is inverted, given that some simplex is."""
-        return not len(self.kept) or bool((self.kept[determinants(self.elements, positions) <= 0] > 0.5).any())
+    def meets_barrier(self, positions: Floats) -> bool:
+        """Whether D is infinite because a simplex that keeps its barrier is inverted."""
+        if not self.has_barrier:
+            return False
+        inverted = ~(determinants(self.elements, positions) > 0)
+        return bool((inverted & (self._kept > 0.5)).any() if len(self._kept) else inverted.any())
+
+    @cached_property
+    def has_kinks(self) -> bool:
+        """Whether D is not smooth everywhere: at ties of singular values, or at a switch of max, min or abs."""
+        compiled = self.distortion.compiled(self.elements.dimension)
+        return compiled.is_kinked_at_ties or compiled.majoriser is not compiled.hessian

@@ -74,7 +74,7 @@ def compile_formula(
     resolve: Callable[[str], tuple[str, Mapping[str, float]] | None] | None = None,
     *,
     text_on_inverted: str = "",
-    logarithm: bool = False,
+    power: float = 1.0,
 ) -> CompiledFormula:
     """Check and compile a formula.
 
@@ -85,15 +85,16 @@ def compile_formula(
     parameters : dict    declared names and their values
     resolve : callable   name with underscores -> (formula, its parameters) of another distortion, or None
     text_on_inverted : str   a second formula for simplices that are inverted at the start
-    logarithm : bool     compile the logarithm instead, of a formula that is an exponential (see `has_logarithm`)
+    power : float        compile D^power instead, or log D where it is 0, of a formula that is an exponential
 
     Raises `FormulaError` with a sentence and the place for everything that is not allowed.
     """
     graph = Graph(dimension)
     bound = dict(parameters or {})
     root = _read_number(graph, bound, resolve, text)
-    if logarithm:
-        root = _logarithm(graph, root) or root
+    exponent = _logarithm(graph, root) if power != 1.0 else None
+    if exponent is not None:
+        root = graph.exp(graph.multiply(graph.constant(power), exponent)) if power else exponent
     if text_on_inverted:
         other = _read_number(graph, bound, resolve, text_on_inverted)
         root = graph.select(graph.datum(), graph.one, root, other)

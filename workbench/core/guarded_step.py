@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.overflow import step_in_stages
 from workbench.core.problem import Problem
 from workbench.core.solver import Interrupt, Solver
 from workbench.core.state import State
@@ -18,12 +19,12 @@ class SolverFaultError(WorkbenchError):
 
 
 def guarded_step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
-    """`solver.step`, checked: a map of the right shape, finite, and without inverted simplices where it had none.
+    """A step of `solver` (see `workbench.core.overflow`), checked: a map of the right shape, finite, and without inverted simplices where it had none.
 
     Positions that are not finite end the run with NONFINITE on the map before. Raises `SolverFaultError` for all else.
     """
     try:
-        following = solver.step(problem, state, interrupt)
+        following = step_in_stages(solver, problem, state, interrupt)
     except (Exception, SystemExit) as error:
         said = f"{type(error).__name__}: {error}".rstrip(": ")
         raise SolverFaultError(f"{solver.label} failed in step {state.iteration + 1}: {said}") from error

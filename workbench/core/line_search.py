@@ -21,7 +21,7 @@ def largest_step_without_inversion(positions: Floats, direction: Floats, simplic
 
     Parameters
     ----------
-    positions : (n, d) float64     current map; simplices of either orientation, degenerate ones are passed over
+    positions : (n, d) float64     current map; simplices that are inverted or degenerate may go where they like
     direction : (n, d) float64     search direction
     simplices : (m, d+1) int64
 
@@ -229,9 +229,7 @@ def _largest_step_2d(x, d, simplices, start, stop):  # type: ignore[no-untyped-d
         c = p0 * q1 - p1 * q0
         b = p0 * v1 - p1 * v0 + u0 * q1 - u1 * q0
         a = u0 * v1 - u1 * v0
-        if c < 0.0:
-            a, b, c = -a, -b, -c
-        if c == 0.0 or (a >= 0.0 and b >= 0.0):
+        if c <= 0.0 or (a >= 0.0 and b >= 0.0):
             continue
         t = smallest_positive_root_quadratic(a, b, c)
         if t < best:
@@ -256,9 +254,7 @@ def _largest_step_3d(x, d, simplices, start, stop):  # type: ignore[no-untyped-d
         c1 = _triple(D, P, P) + _triple(P, D, P) + _triple(P, P, D)
         c2 = _triple(D, D, P) + _triple(D, P, D) + _triple(P, D, D)
         c3 = _triple(D, D, D)
-        if c0 < 0.0:
-            c0, c1, c2, c3 = -c0, -c1, -c2, -c3
-        if c0 == 0.0 or (c1 >= 0.0 and c2 >= 0.0 and c3 >= 0.0):
+        if c0 <= 0.0 or (c1 >= 0.0 and c2 >= 0.0 and c3 >= 0.0):
             continue
         if best < math.inf and ((min(c3, 0.0) * best + min(c2, 0.0)) * best + min(c1, 0.0)) * best + c0 > 0.0:
             continue  # cannot reach zero before the best step so far

@@ -137,6 +137,22 @@ class Problem:
         self.workspace.forget_factor()
         return replace(self, density=self.density.with_distortion(distortion, allow_inversions))
 
+    def from_start(self, positions: Floats) -> Problem:
+        """For a distortion that looks at the start (N, d), the problem that begins there; else the problem itself."""
+        density = self.density.from_start(np.ascontiguousarray(positions, dtype=np.float64))
+        return self if density is self.density else replace(self, density=density)
+
+    @cached_property
+    def may_overflow(self) -> bool:
+        """Whether the distortion is an exponential, which `tempered` tames."""
+        return self.distortion.tempered(self.dimension) is not None
+
+    def tempered(self, power: float) -> Problem:
+        """The same problem with the distortion raised to `power`, or its logarithm where that is 0; see `may_overflow`."""
+        distortion = self.distortion.tempered(self.dimension, power)
+        assert distortion is not None
+        return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
+
     def with_criteria(self, criteria: Criteria) -> Problem:
         return replace(self, criteria=criteria)
 

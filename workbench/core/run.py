@@ -76,7 +76,7 @@ def run(
 
     A failure is the status of the state. Raises `SolverFaultError` where the solver itself is at fault.
     """
-    problem = problem.with_criteria(Criteria(tolerance, gradient_tolerance))
+    problem = problem.with_criteria(Criteria(tolerance, gradient_tolerance)).from_start(positions)
     begin = time.perf_counter()
     state = initial = solver.init(problem, positions)
     problem.system.solver  # noqa: B018  the symbolic analysis belongs to the set-up

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from workbench.core.arrays import Floats
+from workbench.core.errors import WorkbenchError
 from workbench.core.method import Method
 from workbench.core.state import Approach, State
 from workbench.core.status import Status
 
 if TYPE_CHECKING:
+    from workbench.core.distortion import Distortion
     from workbench.core.problem import Problem
 
 Interrupt = Callable[[], bool]
@@ -35,16 +37,29 @@ class Solver(Method, ABC):
 
     monotone: ClassVar[bool] = True
     """Whether the energy never rises in a step once the anchors are in place."""
+    distortions: ClassVar[tuple[str, ...]] = ()
+    """Ids of the distortions that it can minimise; empty: all."""
+
+    @classmethod
+    def check_distortion(cls, distortion: Distortion) -> None:
+        """Raises `WorkbenchError` unless the solver can minimise this distortion."""
+        if cls.distortions and distortion.id not in cls.distortions:
+            names = " and ".join(cls.distortions)
+            raise WorkbenchError(f"{cls.label} minimises {names} alone; choose such a distortion, or another solver.")
 
     def init(self, problem: Problem, positions: Floats) -> State:
-        """The first state; INVERTED_START or NONFINITE where the energy is not finite there."""
+        """The first state; INVERTED_START or NONFINITE where the energy is not finite there.
+
+        Raises `WorkbenchError` for a distortion that the solver cannot minimise.
+        """
+        self.check_distortion(problem.distortion)
         x = np.ascontiguousarray(positions, dtype=np.float64)
         if x.shape != (problem.mesh.vertex_count, problem.dimension) or not np.isfinite(x).all():
             return State(x, status=Status.NONFINITE)
         state = self.rebase(problem, State(x))
-        if state.inverted and problem.density.has_barrier:
+        if state.inverted and problem.density.meets_barrier(x):
             return replace(state, status=Status.INVERTED_START)
-        if not math.isfinite(state.energy):
+        if not math.isfinite(state.energy) and not problem.may_overflow:
             return replace(state, status=Status.NONFINITE)
         return state
 
@@ -60,7 +75,8 @@ class Solver(Method, ABC):
         if state.status is not Status.RUNNING:
             return state.status
         if not math.isfinite(state.energy):
-            return Status.NONFINITE
+            # an exponential that overflows still goes down by its logarithm
+            return Status.RUNNING if problem.may_overflow else Status.NONFINITE
         if problem.anchors_lag(state.positions):
             return Status.RUNNING
         criteria = problem.criteria
