@@ -54,6 +54,7 @@ def prepare(options: argparse.Namespace) -> Prepared:
     starter = registry().initializer(initializer)
     for_distortion, for_solver, for_start = assign(options.settings, options.distortion, (method, starter))
     distortion = Distortion.resolve(options.distortion, for_distortion)
+    method.check_distortion(distortion)
     solver = method.configured({**_seed(method, options.seed), **for_solver})
     problem = Problem.create(
         opened.mesh,

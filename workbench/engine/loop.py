@@ -236,6 +236,8 @@ class EngineLoop:
         )
         if self._problem is not None:
             # Whatever refuses the new distortion (a dimension it does not have, say) leaves the old one in force.
+            if self._solver is not None:
+                self._solver.check_distortion(distortion)
             changed = self._problem if same else self._problem.with_distortion(distortion, command.allow_inversions)
             self._choices = command
             self._problem = changed
@@ -258,6 +260,8 @@ class EngineLoop:
         method = registry().solver(choice.solver)
         if self._mesh is not None and self._kind not in method.kinds:
             raise WorkbenchError(f"{method.label} does not solve {self._kind} maps; choose another solver.")
+        if self._problem is not None:
+            method.check_distortion(self._problem.distortion)
         solver: Solver = method.configured(choice.parameters)
         return solver
 
