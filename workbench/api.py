@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from workbench.core.anchor_steps import approach_anchors
 from workbench.core.arrays import Floats, Integers
+from workbench.core.blocked_steps import unblocked_direction
 from workbench.core.complex_hessian import complex_hessian
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
 from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
 from workbench.core.descent import Derivatives, derivatives_at, descend, is_finite
-from workbench.core.descent_solver import DescentSolver, direction_in_laplacian, direction_in_metric, grown_step
+from workbench.core.descent_solver import DescentSolver, direction_in_laplacian, direction_in_metric, free_gradient, grown_step
 from workbench.core.disc_boundary import BoundaryShape, convex_outline, disc_boundary
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Evaluation
 from workbench.core.errors import FormulaError, MeshError, WorkbenchError
+from workbench.core.extrapolation import Extrapolated, extrapolate, moved_state, with_previous_map
 from workbench.core.initializer import Initializer, StartRequest
 from workbench.core.laplacian_system import LaplacianSystem
+from workbench.core.limited_memory import Pair, inner, make_pair
 from workbench.core.line_search import SAFETY, armijo, largest_step, largest_step_without_inversion
 from workbench.core.linear_maps import (
     conformal_energy,
@@ -32,6 +35,7 @@ from workbench.core.metrics import killing_energy, reweighted_laplacian
 from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
 from workbench.core.progressive_reference import progressive_problem
+from workbench.core.quasi_newton_solver import QuasiNewtonSolver
 from workbench.core.run import RunResult, run
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
@@ -55,6 +59,7 @@ __all__ = [
     "DescentSolver",
     "Distortion",
     "Evaluation",
+    "Extrapolated",
     "Floats",
     "FormulaError",
     "Initializer",
@@ -66,8 +71,10 @@ __all__ = [
     "Mesh",
     "MeshError",
     "NewtonSolver",
+    "Pair",
     "Parameter",
     "Problem",
+    "QuasiNewtonSolver",
     "RunResult",
     "SingularMatrixError",
     "Solver",
@@ -87,16 +94,21 @@ __all__ = [
     "direction_in_metric",
     "dirichlet_matrix",
     "disc_boundary",
+    "extrapolate",
+    "free_gradient",
     "grown_step",
     "harmonic_extension",
+    "inner",
     "is_finite",
     "killing_energy",
     "laplacian",
     "largest_step",
     "largest_step_without_inversion",
+    "make_pair",
     "map_disc",
     "map_from_file",
     "match_source_frame",
+    "moved_state",
     "never",
     "parameter",
     "progressive_problem",
@@ -104,6 +116,8 @@ __all__ = [
     "run",
     "signed_areas",
     "solve_with_fixed",
+    "unblocked_direction",
     "uniform_weights",
     "upright",
+    "with_previous_map",
 ]

@@ -116,12 +116,16 @@ class LinearConstraints:
         result: Floats = self.values - self.matrix @ positions.reshape(-1)
         return result
 
-    def tangential(self, direction: Floats, held: Integers) -> Floats:
-        """The part of `direction` (n, d) that keeps A x, with the vertices `held` not moving at all."""
+    def tangential(self, direction: Floats, held: Integers, inverse_metric: Floats | None = None) -> Floats:
+        """The part of `direction` (n, d) that keeps A x, with the vertices `held` not moving at all.
+
+        inverse_metric : (n, d) float64      of the diagonal metric in which that part is the nearest; None: the Euclidean one
+        """
         d = direction.shape[1]
         rows = self.matrix.toarray()
         rows[:, (held[:, None] * d + np.arange(d)).reshape(-1)] = 0.0
         flat = direction.reshape(-1)
-        multipliers = np.linalg.lstsq(rows @ rows.T, rows @ flat, rcond=None)[0]
-        result: Floats = (flat - rows.T @ multipliers).reshape(direction.shape)
+        corrections = rows if inverse_metric is None else rows * inverse_metric.reshape(-1)
+        multipliers = np.linalg.lstsq(rows @ corrections.T, rows @ flat, rcond=None)[0]
+        result: Floats = (flat - corrections.T @ multipliers).reshape(direction.shape)
         return result

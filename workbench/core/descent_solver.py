@@ -88,3 +88,11 @@ def direction_in_laplacian(problem: Problem, gradient: Floats) -> Floats:
 def grown_step(state: State, growth: float, otherwise: float = 1.0) -> float:
     """First trial of a line search: `growth` times the last accepted step, `otherwise` where there is none to go by."""
     return growth * state.step_size if state.memory is not None and state.step_size > 0.0 else otherwise
+
+
+def free_gradient(problem: Problem, gradient: Floats) -> Floats:
+    """The part of a gradient (N, d) that may move: zero at the hard anchors, along A x = const."""
+    free = gradient.copy()
+    hard = problem.anchors.hard_vertices
+    free[hard] = 0.0
+    return free if problem.constraints is None else problem.constraints.tangential(free, hard)
