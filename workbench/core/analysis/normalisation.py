@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.core.analysis.density import Density, descending, spread
+from workbench.core.analysis.log_convexity import is_proved_log_convex
+from workbench.core.analysis.normal_form import NormalForms
 from workbench.core.analysis.properties import Property, point_text
 from workbench.core.arrays import Floats
 
@@ -28,8 +30,20 @@ def normalisation(density: Density) -> Property:
     value, error = (float(part[0]) for part in density.with_rounding(best[None]))
     if value < at_ones - _margin(error, value) - _margin(ones_error, at_ones):
         return _violation(density, best, at_ones)
+    proof = _proof(density, at_ones)
+    if proof:
+        return Property(True, "both", f"D(1, ..., 1) = {at_ones:.6g} is the minimum: {proof}.", value=at_ones)
     sentence = f"D(1, ..., 1) = {at_ones:.6g} is the least value found between 1e-6 and 1e6."
     return Property(True, "numeric", sentence, value=at_ones)
+
+
+def _proof(density: Density, at_ones: float) -> str:
+    """Why D(1, ..., 1) is the minimum although only some points were looked at; empty where no rule says so."""
+    if at_ones == 0.0 and NormalForms(density.graph, density.order).nonnegative[density.root]:
+        return "D is nowhere negative"
+    if is_proved_log_convex(density):
+        return "D is convex in log sigma, and rises from there in every direction that was tried"
+    return ""
 
 
 def _margin(error: Floats | float, value: Floats | float) -> Floats | float:

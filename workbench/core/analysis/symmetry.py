@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.core.analysis.density import Density, spread
+from workbench.core.analysis.identity import is_proved_symmetric
 from workbench.core.analysis.properties import Property, point_text
 from workbench.core.arrays import Floats
 
@@ -40,6 +41,8 @@ def symmetry(density: Density) -> Property:
     count = int(usable.sum())
     if not count:
         return Property(None, "", "No point was found at which D is finite for a map and its inverse.")
+    if is_proved_symmetric(density):
+        return Property(True, "both", f"The same for a map and its inverse: an identity, seen at {count} points too.")
     return Property(True, "numeric", f"The same for a map and its inverse, at {count} points.")
 
 
