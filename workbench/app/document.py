@@ -73,6 +73,7 @@ class Document(QObject):
         self._attempt: Session | None = None
         self._runs_after_open = False
         self._before: dict[str, dict[str, Any]] = {}
+        self._problem_serial = 0
         self._is_opening = False
         self._has_finished = False
         self._watches: dict[str, tuple[tuple[Measure, ...], bool]] = {}
@@ -174,7 +175,19 @@ class Document(QObject):
             self.refused.emit(report)
         elif report.generation == self.generation or report.command != "Load":
             self.opening_source = ""
-            if report.command in REFUSABLE:
+            if report.kept is not None and report.serial != self._problem_serial:
+                return  # another choice is on its way already
+            if report.kept is not None:
+                kept = report.kept
+                self.session = replace(
+                    self.session,
+                    distortion=kept.distortion,
+                    distortion_parameters=dict(kept.parameters),
+                    fixed_boundary=kept.fixed_boundary,
+                    allow_inversions=kept.allow_inversions,
+                )
+                self.session_changed.emit()
+            elif report.command in REFUSABLE:
                 self.session = replace(self.session, **self._before.pop(report.command, {}))
                 self.session_changed.emit()
             elif report.command in ("Run", "Step"):
@@ -246,20 +259,25 @@ class Document(QObject):
                 self._before[command] = {name: getattr(self.session, name) for name in fields}
         self.session = session
         if names & PROBLEM_FIELDS:
-            self._bridge.post(self._problem(session))
+            self.send_problem()
         if names & SOLVER_FIELDS:
             self._bridge.post(self._solver(session))
         if names & START_FIELDS and self.mesh is not None:
             self.reset()
         self.session_changed.emit()
 
-    @staticmethod
-    def _problem(session: Session) -> SetProblem:
+    def send_problem(self) -> None:
+        """Tell the engine the distortion once more: what its id means may have changed."""
+        self._bridge.post(self._problem(self.session))
+
+    def _problem(self, session: Session) -> SetProblem:
+        self._problem_serial += 1
         return SetProblem(
             session.distortion,
             dict(session.distortion_parameters),
             session.fixed_boundary,
             session.allow_inversions,
+            self._problem_serial,
         )
 
     @staticmethod

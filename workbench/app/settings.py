@@ -8,6 +8,7 @@ from typing import Any
 from PySide6.QtCore import QByteArray, QSettings
 
 RECENT_COUNT = 10
+RECENT_FORMULAS = 20
 
 
 class Settings:
@@ -35,6 +36,16 @@ class Settings:
 
     def forget_files(self) -> None:
         self._store.setValue("recent", [])
+
+    @property
+    def recent_formulas(self) -> list[str]:
+        """Newest first."""
+        value: Any = self._store.value("formulas", [])
+        return [value] if isinstance(value, str) else [str(text) for text in value or []]
+
+    def remember_formula(self, formula: str) -> None:
+        others = [text for text in self.recent_formulas if text != formula]
+        self._store.setValue("formulas", [formula, *others][:RECENT_FORMULAS])
 
     @property
     def theme(self) -> str:

@@ -42,13 +42,15 @@ class Load(Command):
 class SetProblem(Command):
     """Distortion (id or formula) with its parameters; the current map is kept.
 
-    `fixed_boundary` holds the boundary vertices where they are now, beside the anchors.
+    `fixed_boundary` holds the boundary vertices where they are now, beside the anchors. Refused where the distortion is no
+    finite number on the current map. `serial` is chosen by the sender (growing), and comes back in a refusal.
     """
 
     distortion: str = "symmetric-dirichlet"
     parameters: dict[str, float] = field(default_factory=dict)
     fixed_boundary: bool = False
     allow_inversions: bool = False
+    serial: int = field(default=0, compare=False)
 
 
 @dataclass(frozen=True)
@@ -189,6 +191,7 @@ class Refused(Report):
     """A command could not be carried out: the sentence says why; `fixes` are names to offer as buttons.
 
     `lines` is the report on load where a mesh was read but does not suit; `command` is the class name.
+    Of a `SetProblem`, `serial` is its own, and `kept` the one that stays in force.
     """
 
     generation: int
@@ -196,6 +199,8 @@ class Refused(Report):
     sentence: str
     fixes: tuple[str, ...] = ()
     lines: tuple[str, ...] = ()
+    kept: SetProblem | None = None
+    serial: int = 0
 
 
 @dataclass(frozen=True)

@@ -278,6 +278,10 @@ class EngineWorker:
             self._unread_rows = ()
         elif isinstance(report, Refused) and report.command == "Load":
             self._loading = None
+        elif isinstance(report, Refused) and report.kept is not None:
+            sent = self._settings.get(SetProblem)
+            if isinstance(sent, SetProblem) and sent.serial == report.serial:
+                self._settings[SetProblem] = report.kept  # a new process shall not be told what this one refused
         self._report(report)
 
     def _flush(self, report: MapReport | None) -> None:

@@ -22,13 +22,20 @@ from workbench.core.registry import registry
 from workbench.io.atomic import write_text
 
 
+class NameTakenError(WorkbenchError):
+    """There is a formula of that name, which saving would replace."""
+
+
 def save_formula(item: NamedFormula, *, replaces: bool = False) -> str:
-    """Keep a formula; its id. Raises `WorkbenchError` where it cannot be used, or the name is taken and not `replaces`."""
+    """Keep a formula; its id.
+
+    Raises `NameTakenError` where there is one and not `replaces`, `WorkbenchError` where it cannot be used.
+    """
 
     def change(items: list[NamedFormula]) -> list[NamedFormula]:
         place = next((i for i, other in enumerate(items) if other.id == item.id), None)
         if place is not None and not replaces:
-            raise WorkbenchError(f"There is a formula {items[place].name!r} already; choose another name, or replace it.")
+            raise NameTakenError(f"There is a formula {items[place].name!r} already; choose another name, or replace it.")
         others = [other for other in items if other.id != item.id]
         check_formula(item, _known(others))
         others.insert(len(others) if place is None else place, item)

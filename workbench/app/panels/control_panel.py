@@ -48,9 +48,9 @@ class ControlPanel(QScrollArea):
         self.run_buttons = self._make_run_buttons(run_actions)
         self._make_map_group()
         self.distortion = DistortionBox(body)
-        self.distortion.chosen.connect(
-            lambda text, values: document.choose(distortion=text, distortion_parameters=values)
-        )
+        self.distortion.chosen.connect(lambda text, values: document.choose(distortion=text, distortion_parameters=values))
+        self.distortion.tools.formulas_changed.connect(lambda _: document.send_problem())
+        document.snapshot_taken.connect(self.distortion.pacer.answered)
         self._group("Distortion", self.distortion)
         self.solver = MethodBox(body)
         self.solver.chosen.connect(lambda id, values: document.choose(solver=id, solver_parameters=values))
