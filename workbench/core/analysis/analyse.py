@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from workbench.core.analysis.barriers import bottom_barrier, top_barrier
 from workbench.core.analysis.convexity import convexity
 from workbench.core.analysis.density import Density
@@ -23,19 +25,21 @@ def analyse(distortion: Distortion, dimension: int) -> Analysis:
     Raises `FormulaError` where the formula means nothing in this dimension.
     """
     density = Density.of(distortion, dimension)
-    parts = {
-        "normalised": normalisation(density),
-        "symmetric": symmetry(density),
-        "bottom_barrier": bottom_barrier(density),
-        "top_barrier": top_barrier(density),
-        "smooth_almost_everywhere": smoothness(density),
-    }
+    with np.errstate(all="ignore"):  # what runs over or is undefined is part of the answer
+        parts = {
+            "normalised": normalisation(density),
+            "symmetric": symmetry(density),
+            "bottom_barrier": bottom_barrier(density),
+            "top_barrier": top_barrier(density),
+            "smooth_almost_everywhere": smoothness(density),
+        }
+        convex = convexity(density, distortion.has_barrier(dimension))
     return Analysis(
         formula=distortion.formula,
         dimension=dimension,
         **parts,
         regular=_regular(parts),
-        convex=convexity(density, distortion.has_barrier(dimension)),
+        convex=convex,
     )
 
 

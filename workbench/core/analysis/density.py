@@ -12,6 +12,8 @@ from workbench.core.distortion import Distortion
 from workbench.core.expression import Graph, Op
 from workbench.core.tape import Tape, compile_tape
 
+MAXIMUM_NUMBERS = 1_000_000
+"""Values of nodes that are kept at a time."""
 UNIT = float(np.finfo(np.float64).eps)
 
 
@@ -63,6 +65,11 @@ class Density:
 
     def with_rounding(self, sigma: Floats) -> tuple[Floats, Floats]:
         """Values and a bound of their rounding errors, both (m,), by running error analysis along the expression."""
+        sigma = np.atleast_2d(sigma)
+        rows = max(128, MAXIMUM_NUMBERS // len(self.order))
+        if len(sigma) > rows:
+            parts = [self.with_rounding(sigma[start : start + rows]) for start in range(0, len(sigma), rows)]
+            return np.concatenate([v for v, _ in parts]), np.concatenate([e for _, e in parts])
         values = self.nodes(sigma)
         errors: dict[int, Floats] = {}
         with np.errstate(all="ignore"):

@@ -15,7 +15,7 @@ from workbench.core.expression import Op
 
 NONE = (0.0, 0.0, 0.0, 0.0)
 """No exponential. Else (sign, e, l, c) of the argument's leading term, all with that sign: larger tuples grow faster."""
-MAXIMUM_WORK = 40_000
+MAXIMUM_WORK = 12_000
 """Nodes times paths beyond which nothing is told, so that no text makes this slow."""
 
 
@@ -212,4 +212,4 @@ def _signed_rank(v: Leading | None) -> tuple[float, tuple[tuple[float, float, fl
 def _near(exponent: float) -> float:
     """An exponent without the rounding of 2/3 + 1/3, so that what is constant is seen to be so."""
     whole = round(exponent * 5040.0) / 5040.0
-    return whole if abs(whole - exponent) < 1e-12 else exponent
+    return whole if abs(whole - exponent) <= 4e-15 * max(abs(exponent), 1.0) else exponent

@@ -23,6 +23,8 @@ def normalisation(density: Density) -> Property:
     candidates = _candidates(n)
     values, errors = density.with_rounding(candidates)
     margin = _margin(errors, values) + _margin(ones_error, at_ones)
+    if (np.isfinite(values) & (np.abs(values - at_ones) <= margin)).all():
+        return Property(None, "", "D varies by no more than rounding: nothing can be said of its minimum.", value=at_ones)
     found = np.flatnonzero(np.isfinite(values) & (values < at_ones - margin))
     if len(found):
         return _violation(density, candidates[found[0]], at_ones)

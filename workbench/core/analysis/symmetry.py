@@ -41,6 +41,8 @@ def symmetry(density: Density) -> Property:
     count = int(usable.sum())
     if not count:
         return Property(None, "", "No point was found at which D is finite for a map and its inverse.")
+    if np.ptp(values[usable]) <= 16.0 * errors[usable].max():
+        return Property(None, "", "D varies by no more than rounding: nothing can be said of its symmetry.")
     if is_proved_symmetric(density):
         return Property(True, "both", f"The same for a map and its inverse: an identity, seen at {count} points too.")
     return Property(True, "numeric", f"The same for a map and its inverse, at {count} points.")
