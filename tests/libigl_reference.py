@@ -1,4 +1,4 @@
-"""The SLIM of libigl, as an outside reference for energies and times."""
+"""SLIM and ARAP of libigl, as outside references for energies and times."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable
 import igl
 import numpy as np
 
+from workbench.core.constraints import Anchors
 from workbench.core.mesh import Mesh
 
 
@@ -31,3 +32,12 @@ def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
         return np.ascontiguousarray(igl.slim_solve(data, iterations)[:, :2])
 
     return advance
+
+
+def arap_map(mesh: Mesh, start: np.ndarray, anchors: Anchors, iterations: int) -> np.ndarray:
+    """Positions (n, d) after so many local/global iterations of libigl, simplex by simplex; the anchors are hard."""
+    data = igl.ARAPData()
+    data.max_iter = iterations
+    vertices, simplices = np.asfortranarray(mesh.vertices), np.asfortranarray(mesh.simplices)
+    igl.arap_precomputation(vertices, simplices, mesh.dimension, anchors.hard_vertices.astype(np.int32), data)
+    return np.ascontiguousarray(igl.arap_solve(np.asfortranarray(anchors.hard_targets), data, np.asfortranarray(start)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from workbench.core.anchor_steps import approach_anchors
+from workbench.core.anderson_mixing import anderson_step
 from workbench.core.arrays import Floats, Integers
 from workbench.core.blocked_steps import unblocked_direction
 from workbench.core.complex_hessian import complex_hessian
@@ -82,6 +83,7 @@ __all__ = [
     "State",
     "Status",
     "WorkbenchError",
+    "anderson_step",
     "approach_anchors",
     "armijo",
     "complex_hessian",
