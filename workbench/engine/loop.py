@@ -23,6 +23,7 @@ from workbench.core.run import HistoryRow, history_row
 from workbench.core.solver import Solver
 from workbench.core.state import State
 from workbench.core.status import Status
+from workbench.engine.admission import check_admissible
 from workbench.engine.hand import HandFollower
 from workbench.engine.messages import (
     Command,
@@ -119,11 +120,14 @@ class EngineLoop:
         try:
             self._dispatch(command)
         except WorkbenchError as error:
-            self._publish(
-                Refused(self._generation_of(command), type(command).__name__, error.sentence, error.fixes, _lines_of(error))
-            )
+            self._publish(self._refusal(command, error))
         except (Exception, SystemExit) as error:
             self._fail(f"{type(command).__name__} failed: {type(error).__name__}: {error}", traceback.format_exc())
+
+    def _refusal(self, command: Command, error: WorkbenchError) -> Refused:
+        kept, serial = (self._choices, command.serial) if isinstance(command, SetProblem) else (None, 0)
+        name = type(command).__name__
+        return Refused(self._generation_of(command), name, error.sentence, error.fixes, _lines_of(error), kept, serial)
 
     def _generation_of(self, command: Command) -> int:
         return command.generation if isinstance(command, Load) else self._generation
@@ -219,7 +223,7 @@ class EngineLoop:
         self._solver = self._configured_solver(self._solver_choice)
         if self._choices.fixed_boundary:
             self._boundary_positions = start[self._boundary()].copy()
-        self._problem = self._problem.with_anchors(self._all_anchors())
+        self._problem = self._problem.with_anchors(self._all_anchors()).from_start(start)
         self._state = replace(self._solver.init(self._problem, start), iteration=iteration)
         self._rows = [history_row(self._problem, self._state, self._seconds)]
         self._hand.moved()
@@ -229,16 +233,17 @@ class EngineLoop:
     def _set_problem(self, command: SetProblem) -> None:
         distortion = Distortion.resolve(command.distortion, command.parameters)
         boundary_changes = command.fixed_boundary != self._choices.fixed_boundary
-        same = (
-            command.distortion == self._choices.distortion
-            and command.parameters == self._choices.parameters
-            and command.allow_inversions == self._choices.allow_inversions
-        )
         if self._problem is not None:
+            old = self._problem.density
+            same = distortion == old.distortion and command.allow_inversions == old.allow_inversions
             # Whatever refuses the new distortion (a dimension it does not have, say) leaves the old one in force.
             if self._solver is not None:
                 self._solver.check_distortion(distortion)
             changed = self._problem if same else self._problem.with_distortion(distortion, command.allow_inversions)
+            if self._state is not None:
+                changed = changed.from_start(self._state.positions)
+                if not same:
+                    check_admissible(changed, self._state.positions)
             self._choices = command
             self._problem = changed
             if boundary_changes and self._state is not None:
@@ -318,7 +323,7 @@ class EngineLoop:
         assert self._problem is not None and self._solver is not None
         self._problem = self._problem.with_anchors(self._all_anchors())
         state = self._solver.rebase(self._problem, self._current())
-        if state.inverted and self._problem.density.has_barrier:
+        if state.inverted and self._problem.density.meets_barrier(state.positions):
             state = replace(state, status=Status.INVERTED_START)
         self._state = state
         self._hand.moved()
