@@ -25,6 +25,7 @@ class ActionText:
 TEXTS: dict[str, ActionText] = {
     "open": ActionText("&Open…", ("Ctrl+O",), "Open a mesh or a case", "open"),
     "save": ActionText("&Save map…", ("Ctrl+S",), "Save the map as OBJ, npz or VTU", "save"),
+    "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
     "quit": ActionText("&Quit", ("Ctrl+Q",)),
     "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
 from workbench.app.help_texts import ABOUT, SHORTCUTS
+from workbench.app.refining import Refining
 from workbench.app.saving import FILTERS, Saver, SaveRequest
 
 if TYPE_CHECKING:
@@ -33,10 +34,12 @@ class Commands(QObject):
         self.saver.saved.connect(lambda path: window.status.say(f"Saved {path}."))
         self.saver.failed.connect(lambda sentence: window.error_bar.show_message(sentence))
         self._boundary_search: Background | None = None
+        self.refining = Refining(window)
         document = window.document
         deeds: dict[str, Any] = {
             "open": self.ask_open,
             "save": self.ask_save,
+            "refine": self.refining.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
             "pin": self.pin_boundary,
@@ -60,6 +63,7 @@ class Commands(QObject):
     def wait(self) -> None:
         """Let threads end before the window does."""
         self.saver.wait()
+        self.refining.wait()
         if self._boundary_search is not None:
             self._boundary_search.wait()
 

@@ -31,6 +31,8 @@ def fill_menus(window: MainWindow) -> None:
     edit = bar.addMenu("&Edit")
     for name in ("pin", "remove", "clear"):
         edit.addAction(actions[name])
+    edit.addSeparator()
+    edit.addAction(actions["refine"])
     solver = bar.addMenu("&Solver")
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])

@@ -235,7 +235,7 @@ class Reporter(QObject):
         window, document = self._window, self._document
         has_mesh = document.mesh is not None
         show_running(window.actions_by_name["run"], document.is_at_work, window.theme)
-        for name in ("run", "step", "reset", "save", "pin", "clear", "fit"):
+        for name in ("run", "step", "reset", "save", "refine", "pin", "clear", "fit"):
             window.actions_by_name[name].setEnabled(has_mesh)
 
 

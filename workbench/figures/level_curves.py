@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 STYLES = {"linear": ("#000000", "o"), "loop": ("#0072b2", "s"), "catmull-clark": ("#d55e00", "^")}
 """Colour and mark of each scheme; they differ for every eye, and in print without colour."""
 
-PANEL = (2.9, 2.6)
+PANEL = (2.6, 2.4)
 """Width and height of a panel, inches."""
 
 
@@ -29,7 +29,7 @@ def level_curves(curves: Mapping[str, Sequence[LevelMeasures]], title: str = "")
     from matplotlib.figure import Figure
 
     names = list(next(iter(curves.values()))[0].measures)
-    columns = min(len(names), 3)
+    columns = min(len(names), 4)
     rows = math.ceil(len(names) / columns)
     width = max(PANEL[0] * columns, 4.2)  # the legend and the title want that much
     figure = Figure(figsize=(width, PANEL[1] * rows + 0.7), layout="constrained")
@@ -58,11 +58,10 @@ def _draw(panel: Axes, name: str, curves: Mapping[str, Sequence[LevelMeasures]])
     if not shown:
         panel.text(0.5, 0.5, "infinite: inverted simplices", ha="center", va="center", transform=panel.transAxes)
         panel.set_yticks([])
-    elif max(shown) - min(shown) <= 1e-9 * max(map(abs, shown)):
+    elif max(shown) - min(shown) <= 1e-9 * max(1e-6, *map(abs, shown)):
         # rounding is no curve: without this the axis would zoom into it
-        middle = shown[0]
-        margin = 0.05 * abs(middle) or 1.0
-        panel.set_ylim(middle - margin, middle + margin)
+        margin = max(0.05 * abs(shown[0]), 1e-3)
+        panel.set_ylim(shown[0] - margin, shown[0] + margin)
     panel.set_title(name if len(name) <= 34 else f"{name[:33]}…", fontsize=9)
     panel.set_xlabel("level", fontsize=8)
     panel.tick_params(labelsize=8)
