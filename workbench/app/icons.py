@@ -86,6 +86,14 @@ def _clear(painter: QPainter) -> None:
     painter.drawLine(QPointF(48, 16), QPointF(16, 48))
 
 
+def _inspect(painter: QPainter) -> None:
+    pen = QPen(painter.brush().color(), 7)
+    painter.setPen(pen)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawEllipse(QRectF(11, 11, 30, 30))
+    painter.drawLine(QPointF(38, 38), QPointF(53, 53))
+
+
 DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "run": _run,
     "pause": _pause,
@@ -97,6 +105,7 @@ DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "fit": _fit,
     "pin": _pin,
     "clear": _clear,
+    "inspect": _inspect,
 }
 
 

@@ -21,6 +21,7 @@ from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
+from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
@@ -74,6 +75,7 @@ class MainWindow(QMainWindow):
         )
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
+        self.turns.add(self.inspector.plane, self.inspector.plane.draw_points)
         self._make_tools()
         self.commands = Commands(self)
         fill_menus(self)
@@ -145,7 +147,9 @@ class MainWindow(QMainWindow):
         self.resizeDocks([self.maps[0]], [330], Qt.Orientation.Horizontal)
         self.resizeDocks([self.histogram, self.convergence], [300, 640], Qt.Orientation.Horizontal)
         self.resizeDocks([self.histogram], [230], Qt.Orientation.Vertical)
-        self.docks: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
+        self.inspector = InspectorDock(self.document, self.brush, self.theme, self)
+        self.inspector.settle(self, self.maps)
+        self.docks: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence, self.inspector]
 
     def _make_status(self) -> None:
         self.status = StatusLine(self)
@@ -166,6 +170,7 @@ class MainWindow(QMainWindow):
             tool.anchor_moved.connect(document.move_anchor)
             tool.anchor_unwanted.connect(document.remove_anchor)
             document.opened.connect(tool.let_go)
+        self.inspector.follow_pointer([self.source.view, self.target.view, *(dock.view for dock in self.maps)])
 
     def _connect(self) -> None:
         self.theme_switch.changed.connect(self._apply_theme)
@@ -208,6 +213,7 @@ class MainWindow(QMainWindow):
 
     def _methods_found(self, registry: Any) -> None:
         self.panel.set_registry(registry)
+        self.inspector.set_registry(registry)
         self.reporter.show_plugin_failures(registry)
 
     def _apply_theme(self, theme: Theme) -> None:
@@ -215,7 +221,7 @@ class MainWindow(QMainWindow):
         set_icons(self.actions_by_name, theme)
         for pane in (self.source, self.target):
             pane.view.set_theme(theme)
-        parts: tuple[Any, ...] = (self.histogram, self.convergence, self.error_bar)
+        parts: tuple[Any, ...] = (self.histogram, self.convergence, self.inspector, self.error_bar)
         for part in (*self.target_bars.values(), *self.maps, *parts):
             part.set_theme(theme)
         self.reporter.show_running()
@@ -270,6 +276,7 @@ class MainWindow(QMainWindow):
             self.target_tool.let_go()
             self.bridge.close()
             self._finder.wait()
+            self.inspector.wait()
             self.commands.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):

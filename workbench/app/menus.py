@@ -103,6 +103,7 @@ def fill_tool_bar(window: MainWindow) -> None:
     bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
     for name in ("open", "save", "", "run", "step", "reset", "stop", "", "pin", "clear", "", "fit"):
         bar.addAction(window.actions_by_name[name]) if name else bar.addSeparator()
+    bar.addAction(window.inspector.toggle)
     window.addToolBar(bar)
     unlisted: list[QAction] = [a for a in window.actions_by_name.values() if not a.associatedObjects()]
     window.addActions(unlisted)

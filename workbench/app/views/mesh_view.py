@@ -154,8 +154,12 @@ class MeshView(QWidget):
             return -1
         return self._on_screen().vertex_at(pixel, REACH, REACH_INSIDE)
 
+    def triangle_at(self, pixel: Pixel) -> int:
+        """Triangle in front under a pointer, -1 where there is none."""
+        return -1 if self.geometry_shown is None else self._on_screen().triangle_at(pixel)
+
     def is_over_mesh(self, pixel: Pixel) -> bool:
-        return self.geometry_shown is not None and self._on_screen().triangle_at(pixel) >= 0
+        return self.triangle_at(pixel) >= 0
 
     def anchor_at(self, pixel: Pixel, reach: float = 11.0) -> int:
         """Vertex of the anchor whose disc is under the pointer, -1 where there is none."""

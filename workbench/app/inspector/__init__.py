@@ -1,0 +1,1 @@
+"""The inspector: formula, properties and plots of the distortion in force."""

@@ -1,0 +1,54 @@
+"""The triangle under the pointer in a view is marked everywhere, while the inspector shows the simplices as points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtGui import QMouseEvent
+
+from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.views.mesh_view import MeshView
+
+ORIGIN = "hover"
+PAUSE = 40
+"""Milliseconds between two looks at what lies under the pointer."""
+
+
+class HoverBrush(QObject):
+    """Brushes one triangle at a time; what was brushed on purpose is left alone."""
+
+    def __init__(self, brush: SimplexBrush, views: Sequence[MeshView], is_wanted: Callable[[], bool]) -> None:
+        super().__init__()
+        self._brush = brush
+        self._is_wanted = is_wanted
+        self._under: tuple[MeshView, tuple[float, float]] | None = None
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(PAUSE)
+        self._timer.timeout.connect(self._look)
+        for view in views:
+            view.overlay.moved.connect(lambda event, v=view: self._move(v, event))
+            view.overlay.left.connect(self._leave)
+
+    def stop(self) -> None:
+        self._timer.stop()
+
+    def _move(self, view: MeshView, event: QMouseEvent) -> None:
+        if event.buttons() != Qt.MouseButton.NoButton or not self._is_wanted():
+            return
+        self._under = (view, (event.position().x(), event.position().y()))
+        if not self._timer.isActive():
+            self._timer.start()
+
+    def _leave(self) -> None:
+        self._under = None
+        if self._brush.origin == ORIGIN:
+            self._brush.clear()
+
+    def _look(self) -> None:
+        if self._under is None or self._brush.origin not in ("", ORIGIN):
+            return
+        view, pixel = self._under
+        triangle = view.triangle_at(pixel)
+        self._brush.brush([triangle] if triangle >= 0 else [], ORIGIN)
