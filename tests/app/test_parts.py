@@ -10,56 +10,17 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import leaked_widgets
 from workbench.app.anchor_set import AnchorSet
-from workbench.app.colour_bar import ticks
 from workbench.app.commands import boundary_vertices
 from workbench.app.docks.convergence_dock import MOST_BINS, thinned
 from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.app.panels.method_form import MethodForm
-from workbench.app.quantities import LIVE_QUANTITIES, ColourRange, rounded_up
 from workbench.app.settings import Settings
 from workbench.app.theme import LIGHT
 from workbench.app.views.geometry import DisplayFrame
 from workbench.core.method import Parameter
 from workbench.engine.messages import HistoryRow
-
-
-@pytest.mark.parametrize(("span", "expected"), [(0.11, 0.2), (1.0, 1.0), (1.2, 2.0), (4.9, 5.0), (5.1, 10.0), (730, 1000)])
-def test_ranges_end_at_round_numbers(span: float, expected: float) -> None:
-    assert rounded_up(span) == pytest.approx(expected)
-
-
-def test_a_range_rises_at_once_and_falls_late(qapp: object) -> None:
-    colour_range = ColourRange(LIVE_QUANTITIES[2])
-    colour_range.take(np.full(100, 5.5, np.float32))
-    assert (colour_range.low, colour_range.high) == (4.0, 6.0)
-    colour_range.take(np.full(100, 20.0, np.float32))
-    assert colour_range.high == 24.0
-    colour_range.take(np.full(100, 10.0, np.float32))
-    assert colour_range.high == 24.0, "colours keep their meaning while values wander"
-    colour_range.take(np.full(100, 4.2, np.float32))
-    assert colour_range.high < 5.0
-    colour_range.is_locked = True
-    colour_range.take(np.full(100, 400.0, np.float32))
-    assert colour_range.high < 5.0
-
-
-def test_values_that_are_not_finite_do_not_count(qapp: object) -> None:
-    colour_range = ColourRange(LIVE_QUANTITIES[0])
-    values = np.ones(100, np.float32)
-    values[:10] = np.inf
-    values[10:20] = np.nan
-    colour_range.take(values)
-    assert np.isfinite(colour_range.high)
-    colour_range.take(np.full(5, np.nan, np.float32))
-    assert np.isfinite(colour_range.high)
-
-
-def test_ticks_begin_and_end_with_the_range() -> None:
-    marks = ticks(1.0, 3.0)
-    assert marks[0] == (0.0, "1")
-    assert marks[-1] == (1.0, "≥ 3")
 
 
 def test_each_event_is_answered_once_by_the_first_map_that_holds_it() -> None:

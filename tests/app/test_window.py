@@ -254,11 +254,15 @@ def test_inverted_triangles_are_drawn_yellow(window: MainWindow, qtbot: QtBot) -
     hand.click(pixel_of(target, 0))
     hand.click(pixel_of(target, 272))
     begin = pixel_of(target, 136)
-    above = pixel_of(target, 272).y() - 40
-    hand.drag(begin, QPoint(begin.x(), above), steps=4)  # folds the middle over the upper side
+    hand.drag(begin, QPoint(pixel_of(target, 272).x(), begin.y()), steps=4)  # the middle is folded over the right half
     qtbot.waitUntil(lambda: window.document.snapshot.inverted.any())
     for view in (target, window.source.view):
         qtbot.waitUntil(lambda v=view: yellow_pixels(v) > 10)
+    window.set_source_style("det")  # factors from below 0 on a logarithmic scale
+    qtbot.waitUntil(lambda: "det" in window.document.snapshot.fields)
+    QTest.qWait(100)
+    assert yellow_pixels(window.source.view) > 10
+    window.set_source_style("checkerboard")
 
 
 def yellow_pixels(view: MeshView) -> int:

@@ -162,8 +162,7 @@ class Commands(QObject):
                 view.refresh()
 
     def hold_ranges(self) -> None:
-        for colour_range in self._window.ranges.values():
-            colour_range.is_locked = self._window.actions_by_name["lock"].isChecked()
+        self._window.quantities.hold_all(self._window.actions_by_name["lock"].isChecked())
 
     def choose_theme(self, choice: str) -> None:
         self._window.settings.theme = choice

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDockWidget, QMainWindow, QSplitter, QVBoxLayout, 
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.background import Background
-from workbench.app.colour_bar import ColourBar
+from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.docks.convergence_dock import ConvergenceDock
@@ -27,7 +27,8 @@ from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
 from workbench.app.presenter import Presenter
 from workbench.app.progress_bar import ProgressLine
-from workbench.app.quantities import LIVE_QUANTITIES, ColourRange
+from workbench.app.quantities import LIVE_QUANTITIES
+from workbench.app.quantity_book import QuantityBook
 from workbench.app.reporter import Reporter
 from workbench.app.settings import Settings
 from workbench.app.simplex_brush import SimplexBrush
@@ -37,6 +38,7 @@ from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.views.pane import ViewPane
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
+TARGET_STYLES = {"plain": "Plain"}
 RIGHT, BOTTOM, LEFT = (
     Qt.DockWidgetArea.RightDockWidgetArea,
     Qt.DockWidgetArea.BottomDockWidgetArea,
@@ -65,13 +67,15 @@ class MainWindow(QMainWindow):
         self.document = Document(self.bridge)
         self.history = History()
         self.brush = SimplexBrush(self)
+        self.quantities = QuantityBook(self)
         self.actions_by_name = make_actions(self, self.theme)
         self._make_centre()
         self._make_docks()
         self._make_status()
         self.turns = PanelTurns()
+        self.colouring = Colouring(self.document, self.quantities, (self.source, self.target), (*self.maps, self.histogram))
         self.presenter = Presenter(
-            self.document, self.source.view, self.target.view, self.maps, self.ranges, self.turns, self.brush
+            self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush
         )
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
@@ -97,14 +101,8 @@ class MainWindow(QMainWindow):
     # ------------------------------------------------------------------------------------------ making
 
     def _make_centre(self) -> None:
-        self.ranges = {quantity.id: ColourRange(quantity) for quantity in LIVE_QUANTITIES}
-        target_styles = {"plain": "Plain", **{q.id: f"{q.label} {q.equation}" for q in LIVE_QUANTITIES}}
-        self.source = ViewPane("Source", SOURCE_STYLES, self.theme, self)
-        self.target = ViewPane("Target", target_styles, self.theme, self)
-        self.target_bars = {id: ColourBar(colour_range, self.target) for id, colour_range in self.ranges.items()}
-        for bar in self.target_bars.values():
-            bar.hide()
-            self.target.add_below(bar)
+        self.source = ViewPane("Source", SOURCE_STYLES, self.quantities, self.theme, self)
+        self.target = ViewPane("Target", TARGET_STYLES, self.quantities, self.theme, self)
         splitter = QSplitter(Qt.Orientation.Horizontal, self)
         splitter.addWidget(self.source)
         splitter.addWidget(self.target)
@@ -124,11 +122,12 @@ class MainWindow(QMainWindow):
     def _make_docks(self) -> None:
         run_names = ("run", "step", "reset", "stop")
         self.panel = ControlPanel(self.document, [self.actions_by_name[n] for n in run_names], self)
+        self.panel.distortion.tools.use_settings(self.settings)
         self.panel_dock = QDockWidget("Choices", self)
         self.panel_dock.setObjectName("choices")
         self.panel_dock.setWidget(self.panel)
-        self.maps = [ColourMapDock(colour_range, self.theme, self) for colour_range in self.ranges.values()]
-        self.histogram = HistogramDock(self.theme, self)
+        self.maps = [ColourMapDock(self.quantities, quantity.id, self.theme, self) for quantity in LIVE_QUANTITIES]
+        self.histogram = HistogramDock(self.quantities, self.brush, self.theme, self)
         self.convergence = ConvergenceDock(self.history, self.theme, self)
         for corner, area in (
             (Qt.Corner.TopLeftCorner, LEFT),
@@ -145,7 +144,7 @@ class MainWindow(QMainWindow):
         self.splitDockWidget(self.histogram, self.convergence, Qt.Orientation.Horizontal)
         self.resizeDocks([self.panel_dock], [290], Qt.Orientation.Horizontal)
         self.resizeDocks([self.maps[0]], [330], Qt.Orientation.Horizontal)
-        self.resizeDocks([self.histogram, self.convergence], [300, 640], Qt.Orientation.Horizontal)
+        self.resizeDocks([self.histogram, self.convergence], [340, 600], Qt.Orientation.Horizontal)
         self.resizeDocks([self.histogram], [230], Qt.Orientation.Vertical)
         self.inspector = InspectorDock(self.document, self.brush, self.theme, self)
         self.inspector.settle(self, self.maps)
@@ -174,19 +173,18 @@ class MainWindow(QMainWindow):
 
     def _connect(self) -> None:
         self.theme_switch.changed.connect(self._apply_theme)
-        self.source.style_chosen.connect(self.presenter.set_source_style)
+        self.source.style_chosen.connect(self.set_source_style)
         self.target.style_chosen.connect(self.set_target_style)
         self.document.snapshot_taken.connect(self._extend_history)
         self.document.history_restarted.connect(self._restart_history)
+        self.document.opened.connect(lambda: self.histogram.set_mesh(self.document.mesh))
+        self.histogram.redraw_wanted.connect(self.turns.all_stale)
 
     # ------------------------------------------------------------------------------------------ showing
 
     def set_target_style(self, style: str) -> None:
         """Colour the target by a quantity, or plain."""
-        self.target.set_style(style)
-        for id, bar in self.target_bars.items():
-            bar.setVisible(id == style)
-        self.presenter.set_target_style(style)
+        self.colouring.set_style(self.target, style)
 
     def set_drawing(self, wanted: bool) -> None:
         """Whether views follow the map at all; without, everything but the pictures goes on."""
@@ -195,8 +193,8 @@ class MainWindow(QMainWindow):
         self.turns.is_drawing = wanted
 
     def set_source_style(self, style: str) -> None:
-        self.source.set_style(style)
-        self.presenter.set_source_style(style)
+        """Colour the source by a pattern of the map, or by a quantity."""
+        self.colouring.set_style(self.source, style)
 
     def _extend_history(self) -> None:
         snapshot = self.document.snapshot
@@ -213,16 +211,15 @@ class MainWindow(QMainWindow):
 
     def _methods_found(self, registry: Any) -> None:
         self.panel.set_registry(registry)
+        self.quantities.list_distortions(registry.distortions.values())
         self.inspector.set_registry(registry)
         self.reporter.show_plugin_failures(registry)
 
     def _apply_theme(self, theme: Theme) -> None:
         self.setStyleSheet(style_sheet(theme))
         set_icons(self.actions_by_name, theme)
-        for pane in (self.source, self.target):
-            pane.view.set_theme(theme)
-        parts: tuple[Any, ...] = (self.histogram, self.convergence, self.inspector, self.error_bar)
-        for part in (*self.target_bars.values(), *self.maps, *parts):
+        parts: tuple[Any, ...] = (self.source, self.target, self.histogram, self.convergence, self.inspector, self.error_bar)
+        for part in (*self.maps, *parts):
             part.set_theme(theme)
         self.reporter.show_running()
 

@@ -7,14 +7,13 @@ from functools import partial
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from workbench.app.colouring import Colouring
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
 from workbench.app.panel_turns import PanelTurns
-from workbench.app.quantities import CONFORMAL_FACTOR, ColourRange
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.geometry import DisplayFrame, Geometry
-from workbench.app.views.mesh_view import MeshView
-from workbench.app.views.textures import PATTERNS
+from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 
 EMPTY = "Open a mesh with Ctrl+O, choose a sample in the File menu, or drop a file here."
@@ -31,23 +30,22 @@ class Presenter(QObject):
     def __init__(
         self,
         document: Document,
-        source: MeshView,
-        target: MeshView,
+        source: ViewPane,
+        target: ViewPane,
         maps: list[ColourMapDock],
-        ranges: dict[str, ColourRange],
+        colouring: Colouring,
         turns: PanelTurns,
         brush: SimplexBrush,
     ) -> None:
         super().__init__()
         self._document = document
         self._brush = brush
-        self.source = source
-        self.target = target
+        self._panes = (source, target)
+        self.source = source.view
+        self.target = target.view
         self._maps = maps
-        self._ranges = ranges
+        self._colouring = colouring
         self._turns = turns
-        self.source_style = "checkerboard"
-        self.target_style = "plain"
         self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
         self._hovered = -1
@@ -56,8 +54,8 @@ class Presenter(QObject):
         self._late_marks.setSingleShot(True)
         self._late_marks.setInterval(MARKS_WAIT)
         self._late_marks.timeout.connect(self._draw_marks)
-        target.drawn.connect(turns.main_is_drawn)
-        turns.add(source, self._draw_source, self._source_cost)
+        self.target.drawn.connect(turns.main_is_drawn)
+        turns.add(self.source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
         document.snapshot_taken.connect(self._show_snapshot)
         document.history_restarted.connect(self._start_again)
@@ -66,9 +64,6 @@ class Presenter(QObject):
         brush.changed.connect(self._show_brush)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
-        for id, colour_range in ranges.items():
-            colour_range.changed.connect(partial(self._range_changed, id))
-        document.watch("views", (*(dock.colour_range.quantity for dock in maps), CONFORMAL_FACTOR))
         self.clear()
 
     # ------------------------------------------------------------------------------------------ meshes
@@ -90,7 +85,7 @@ class Presenter(QObject):
         geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices)
         surface = self.source.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
-        self.set_source_style(self.source_style)
+        self._colouring.apply(self._panes[0])
 
     def _begin_target(self, positions: Floats) -> Geometry:
         """The first map of a mesh: its frame is kept, so that dragging does not move the picture."""
@@ -104,7 +99,7 @@ class Presenter(QObject):
             dock.show_geometry(geometry)
             assert dock.view.surface is not None
             dock.view.surface.set_cut_edges(loaded.cut_edges)
-        self._apply_target_style()
+        self._colouring.apply(self._panes[1])
         return geometry
 
     def _start_again(self) -> None:
@@ -126,11 +121,8 @@ class Presenter(QObject):
         geometry = self._target_geometry or self._begin_target(snapshot.positions)
         geometry.write(snapshot.positions)
         self.target.points_changed()
-        for dock in self._maps:
-            values = snapshot.fields.get(dock.colour_range.quantity.id)
-            if values is not None:
-                dock.colour_range.take(values)
-        self._paint_target()
+        self._colouring.take(snapshot)
+        self._colouring.paint(self._panes[1])
         self._mark()
         self._late_marks.stop()
         if is_first:
@@ -146,22 +138,13 @@ class Presenter(QObject):
             self._turns.main_is_drawn()  # there is nothing to wait for
         self.picture_sent.emit(snapshot.anchor_serial)
 
-    def _paint_target(self) -> None:
-        snapshot, surface = self._document.snapshot, self.target.surface
-        if snapshot is None or surface is None:
-            return
-        surface.set_values(snapshot.fields.get(self.target_style), snapshot.inverted)
-
-    def _paint_source(self) -> None:
-        snapshot, surface, geometry = self._document.snapshot, self.source.surface, self._target_geometry
-        if snapshot is None or surface is None or geometry is None:
-            return
-        surface.set_texture_positions(geometry.points)
-        surface.set_values(None, snapshot.inverted)
-
     def _draw_source(self) -> None:
         """The source changes with the map where it carries its texture, inverted triangles or marks."""
-        self._paint_source()
+        surface, geometry = self.source.surface, self._target_geometry
+        if surface is None or geometry is None:
+            return
+        surface.set_texture_positions(geometry.points)
+        self._colouring.paint(self._panes[0])
         self.source.refresh()
 
     def _source_cost(self) -> float:
@@ -170,36 +153,6 @@ class Presenter(QObject):
     def _draw_map(self, dock: ColourMapDock) -> None:
         if self._document.snapshot is not None:
             dock.show_snapshot(self._document.snapshot)
-
-    # ------------------------------------------------------------------------------------------ styles
-
-    def set_source_style(self, style: str) -> None:
-        self.source_style = style
-        surface = self.source.surface
-        if surface is None or style not in PATTERNS:
-            return
-        surface.show_pattern(style)  # type: ignore[arg-type]
-        self._draw_source()
-
-    def set_target_style(self, style: str) -> None:
-        self.target_style = style
-        self._apply_target_style()
-
-    def _range_changed(self, id: str) -> None:
-        if id == self.target_style:
-            self._apply_target_style()
-
-    def _apply_target_style(self) -> None:
-        surface = self.target.surface
-        if surface is None:
-            return
-        if self.target_style in self._ranges:
-            colour_range = self._ranges[self.target_style]
-            surface.show_range(colour_range.low, colour_range.high)
-        else:
-            surface.show_plain()
-        self._paint_target()
-        self.target.refresh()
 
     # ------------------------------------------------------------------------------------------ marks
 

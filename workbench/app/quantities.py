@@ -1,36 +1,46 @@
-"""What the colour maps show, and their colour ranges: one for each quantity, shared by every view."""
+"""What can be shown of each simplex: the quantities that views offer, and what their colours stand for."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
 
-from workbench.core.arrays import Floats
-from workbench.core.measure import Measure
+from workbench.core.distortion import Distortion
+from workbench.core.measure import DESCRIPTORS, Measure
 
 
 @dataclass(frozen=True)
 class Quantity:
     """A field that snapshots carry: id in `Snapshot.fields`, words for the title, smallest possible value.
 
-    `least_span` is the narrowest range of colours: below it differences are not worth a colour.
+    `least` is None where there is no smallest value: colours then begin where the values do. `centre` is the value that
+    stands for no distortion, with different colours on its two sides. `least_span` is the narrowest range of colours:
+    below it differences are not worth a colour. `group` parts the lists.
     """
 
     id: str
     label: str
     equation: str
     formula: str
-    least: float
+    least: float | None = 0.0
     least_span: float = 0.1
     parameters: tuple[tuple[str, float], ...] = ()
     text: str = ""
+    centre: float | None = None
+    is_logarithmic: bool = False
+    group: str = "live"
 
     @property
     def measure(self) -> Measure:
         """What the engine computes for it."""
         return Measure(self.text or self.id, self.parameters)
+
+    @property
+    def title(self) -> str:
+        return f"{self.label} {self.equation}".rstrip()
 
 
 LIVE_QUANTITIES: tuple[Quantity, ...] = (
@@ -38,60 +48,74 @@ LIVE_QUANTITIES: tuple[Quantity, ...] = (
     Quantity("condition-number", "Condition number", "(29)", "σ₁ / σ₂", 1.0),
     Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0),
 )
+"""The colour maps that a window begins with."""
+CONFORMAL_FACTOR = Quantity(
+    "average-singular-value",
+    "Average singular value",
+    "(78)",
+    "(σ₁ + σ₂) / 2, the approximate conformal factor",
+    centre=1.0,
+    is_logarithmic=True,
+    group="factors",
+)
+FACTORS: tuple[Quantity, ...] = (
+    CONFORMAL_FACTOR,
+    Quantity("det", "Determinant", "", DESCRIPTORS["det"], None, centre=1.0, is_logarithmic=True, group="factors"),
+    Quantity("sigma1", "σ₁", "", DESCRIPTORS["sigma1"], 0.0, centre=1.0, is_logarithmic=True, group="factors"),
+    Quantity("sigman", "σₙ", "", DESCRIPTORS["sigman"], None, centre=1.0, is_logarithmic=True, group="factors"),
+)
+"""Factors of length and area: below and above 1 are told apart, a half as far from it as twice."""
 
-CONFORMAL_FACTOR = Quantity("average-singular-value", "Average singular value", "(78)", "(σ₁ + σ₂) / 2", 0.0)
 
-STEPS = (1.0, 2.0, 5.0)
-
-
-def rounded_up(span: float) -> float:
-    """The next of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ... at or above `span`."""
-    if not np.isfinite(span) or span <= 0:
-        return 0.1
-    decade = 10.0 ** np.floor(np.log10(span))
-    for step in (*STEPS, 10.0):
-        if span <= step * decade * (1 + 1e-9):
-            return float(step * decade)
-    return float(10.0 * decade)
+def quantity_of_distortion(item: Distortion, group: str = "distortions") -> Quantity:
+    """A registered distortion with its default parameters."""
+    equation = item.citation.split(";")[0].strip() if item.citation.startswith("(") else ""
+    least, centre = _sides(item)
+    return Quantity(item.id, item.label, equation, item.formula, least, centre=centre, group=group)
 
 
-class ColourRange(QObject):
-    """Range of one quantity; `changed` tells all views that show it.
+def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None) -> Quantity:
+    """A typed formula. Raises `WorkbenchError` where it is none."""
+    item = Distortion.resolve(text, dict(parameters or {}))
+    item.compiled(2)
+    measure = Measure.of(text, parameters)
+    least, centre = _sides(item)
+    return Quantity(
+        measure.id,
+        measure.id,
+        "",
+        item.formula,
+        least,
+        centre=centre,
+        parameters=measure.parameters,
+        text=text,
+        group="formulas",
+    )
 
-    The upper end is a round number above nearly all values. It rises at once and falls only when the values
-    have fallen far below it, so that colours keep their meaning while a map moves.
+
+def _sides(item: Distortion) -> tuple[float | None, float | None]:
+    """Smallest value and centre of a distortion in the plane, as far as a look at some hundred matrices tells.
+
+    A normalised one begins at its value for an isometry, another that is never negative at 0; one that takes both signs
+    has its centre there.
     """
+    with np.errstate(all="ignore"):
+        at_isometry, *others = item.compiled(2).value.evaluate(_trial_values())[:, 0]
+    others = np.array(others)
+    others = others[np.isfinite(others)]
+    if not len(others) or not np.isfinite(at_isometry):
+        return None, None
+    slack = 1e-9 * max(abs(at_isometry), 1.0)
+    if at_isometry <= others.min() + slack:
+        return float(at_isometry), None
+    if others.min() < -slack:
+        return None, 0.0 if others.max() > slack else None
+    return 0.0, None
 
-    changed = Signal()
 
-    def __init__(self, quantity: Quantity) -> None:
-        super().__init__()
-        self.quantity = quantity
-        self.low = quantity.least
-        self.high = quantity.least + 1.0
-        self.is_locked = False
-        self._is_fresh = True
-
-    def forget(self) -> None:
-        """Start anew, for another mesh."""
-        self._is_fresh = True
-
-    def take(self, values: Floats) -> None:
-        """Fit the range to the values (m,) of a snapshot; those that are not finite do not count."""
-        if self.is_locked:
-            return
-        # a sample is enough for a round number, and keeps large meshes cheap
-        sample = values[:: max(1, len(values) // 20000)]
-        sample = sample[np.isfinite(sample)]
-        if not len(sample):
-            return
-        wanted = float(np.quantile(sample, 0.99)) - self.low
-        span = self.high - self.low
-        if self._is_fresh or wanted > span or wanted < 0.15 * span:
-            self._is_fresh = False
-            self.set_high(self.low + max(rounded_up(wanted), self.quantity.least_span))
-
-    def set_high(self, high: float) -> None:
-        if high != self.high and high > self.low:
-            self.high = high
-            self.changed.emit()
+@lru_cache(maxsize=1)
+def _trial_values() -> np.ndarray:
+    """Singular values (k, 2), descending, of many sizes; first those of an isometry."""
+    random = np.random.default_rng(7)
+    exponents = np.concatenate([random.uniform(-4, 4, (200, 2)), random.uniform(-0.3, 0.3, (200, 2))])
+    return np.vstack([np.ones((1, 2)), -np.sort(-(10.0**exponents), axis=1)])

@@ -9,6 +9,7 @@ def style_sheet(theme: Theme) -> str:
     return f"""
     QDockWidget {{ color: {theme.text}; }}
     QDockWidget::title {{ background: {theme.window}; padding: 4px 8px; border-bottom: 1px solid {theme.border}; }}
+    QWidget#dock-title {{ background: {theme.window}; border-bottom: 1px solid {theme.border}; }}
     QMainWindow::separator {{ background: {theme.border}; width: 4px; height: 4px; }}
     QSplitter::handle {{ background: {theme.border}; width: 3px; }}
     QLabel#citation {{ color: {theme.faint}; font-size: 11px; }}

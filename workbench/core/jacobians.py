@@ -62,6 +62,11 @@ def rest_edges(mesh: Mesh) -> Floats:
     return flat
 
 
+def simplex_measures(mesh: Mesh) -> Floats:
+    """Areas or volumes (m,) of the simplices, 0 where they are degenerate."""
+    return np.abs(np.linalg.det(rest_edges(mesh))) / (2.0 if mesh.dimension == 2 else 6.0)
+
+
 def build_elements(mesh: Mesh) -> Elements:
     """Frames and measures of a source. Raises `MeshError` naming the first degenerate simplex."""
     edges = rest_edges(mesh)

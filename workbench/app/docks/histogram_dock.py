@@ -1,63 +1,238 @@
-"""Live histogram of the average singular value (78)."""
+"""Live histogram of a quantity: how many simplices, or how much area, has which value; and a brush over its bins."""
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Any
+
 import numpy as np
 import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QDockWidget, QWidget
+from PySide6.QtWidgets import QDockWidget, QMenu, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.docks.plots import calm, paint_axes
+from workbench.app.docks.bin_brush import BinBrush
+from workbench.app.docks.dock_title import DockTitle
+from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.quantities import CONFORMAL_FACTOR
-from workbench.app.theme import Theme
-from workbench.core.quality import average_histogram
+from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantity_chooser import QuantityChooser
+from workbench.app.range_menu import fill_range_menu
+from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.theme import BRUSH, Theme
+from workbench.core.arrays import Floats, Integers
+from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
+from workbench.core.jacobians import simplex_measures
+from workbench.core.mesh import Mesh
 from workbench.engine.messages import Snapshot
+
+BINS = 64
+ORIGIN = "histogram"
+SMALLEST_PART = 0.3
+"""Where counts are logarithmic the axis begins at this part of the smallest bar that there can be."""
 
 
 class HistogramDock(QDockWidget):
-    """Bars of `Snapshot.histogram`; one standing item is given new heights."""
+    """Bars over the quantity's colour range, in its colours; the part of the brushed simplices in that of the brush.
 
-    def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
-        super().__init__("Average singular value (78)", parent)
+    `quantity_changed` tells that it is another one; `redraw_wanted` that something but the map changed.
+    """
+
+    quantity_changed = Signal()
+    redraw_wanted = Signal()
+
+    def __init__(self, book: QuantityBook, brush: SimplexBrush, theme: Theme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
         self.setObjectName("histogram")
-        self.setToolTip("How many simplices have which mean of their singular values; 1 keeps lengths.")
-        self.plot = pg.PlotWidget(self)
-        calm(self.plot.getPlotItem(), self)
-        self.plot.setMinimumSize(200, 120)
-        # stepMode draws one bar between each two edges
-        self._bars = pg.PlotDataItem([0.0, 1.0], [0.0], stepMode="center", fillLevel=0)
-        self._unit = pg.InfiniteLine(1.0, angle=90)
-        self.plot.addItem(self._bars)
-        self.plot.addItem(self._unit)
-        self.plot.setLabel("bottom", "mean of σ")
-        self.plot.setLabel("left", "simplices")
-        self.setWidget(self.plot)
-        self.counts = np.zeros(0, np.int64)
+        self._book = book
+        self._brush = brush
+        self._theme = theme
+        self.range = book.range_of(CONFORMAL_FACTOR.id)
+        self.is_weighted = False
+        self.has_logarithmic_counts = False
+        self.counts = np.zeros(0)
+        self.brushed_counts = np.zeros(0)
+        self._bins: Integers = np.zeros(0, np.int64)
+        self._mesh: Mesh | None = None
+        self._areas: Floats | None = None
+        self._make_plot()
+        self.chooser = QuantityChooser(book, self.quantity, parent=self)
+        self.chooser.chosen.connect(self.show_quantity)
+        self.setTitleBarWidget(DockTitle(self, self.chooser, self._menu_button()))
+        book.range_changed.connect(self._range_changed)
+        brush.changed.connect(self._show_brush)
+        self.show_quantity(self.quantity)
         self.clear()
         self.set_theme(theme)
 
+    def _make_plot(self) -> None:
+        axes: dict[str, Any] = {side: LogarithmicAxis(side) for side in ("bottom", "left")}
+        self.plot = pg.PlotWidget(self, axisItems=axes)
+        calm(self.plot.getPlotItem(), self)
+        self.plot.setMinimumSize(200, 120)
+        self.plot.setToolTip("Drag across bars to mark their simplices in every view; click to unmark.")
+        self._bars = pg.BarGraphItem(x0=[0.0], x1=[1.0], y0=0.0, height=[0.0])
+        self._marked = pg.BarGraphItem(x0=[0.0], x1=[1.0], y0=0.0, height=[0.0])
+        self._centre = pg.InfiniteLine(1.0, angle=90)
+        for item in (self._bars, self._marked, self._centre):
+            self.plot.addItem(item)
+        self._bin_brush = BinBrush(self.plot)
+        self._bin_brush.dragged.connect(self._brush_between)
+        self._bin_brush.clicked.connect(self._brush.clear)
+        body = QWidget(self)
+        layout = QVBoxLayout(body)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plot)
+        self.setWidget(body)
+
+    def _menu_button(self) -> QToolButton:
+        button = QToolButton(self)
+        button.setText("⋯")
+        button.setToolTip("Weights, scales and range of the histogram")
+        button.setAutoRaise(True)
+        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(button)
+        menu.aboutToShow.connect(partial(self._fill_menu, menu))
+        button.setMenu(menu)
+        button.setStyleSheet("QToolButton::menu-indicator { image: none; }")
+        return button
+
+    def _fill_menu(self, menu: QMenu) -> None:
+        menu.clear()
+        for text, is_on, deed in (
+            ("Weighted by area of the source", self.is_weighted, self.set_weighted),
+            ("Logarithmic counts", self.has_logarithmic_counts, self.set_logarithmic_counts),
+        ):
+            action = menu.addAction(text)
+            action.setCheckable(True)
+            action.setChecked(is_on)
+            action.toggled.connect(deed)
+        menu.addSeparator()
+        fill_range_menu(menu, self.range, self)
+
+    # ------------------------------------------------------------------------------------------ choices
+
+    @property
+    def quantity(self) -> str:
+        """Id of what is shown."""
+        return self.range.quantity.id
+
+    def show_quantity(self, id: str) -> None:
+        """Count another quantity; its values come with the next snapshot."""
+        self.range = self._book.range_of(id)
+        self.chooser.show_choice(id)
+        title = self.range.quantity.title
+        self.setWindowTitle(f"Histogram: {title}")
+        self.clear()
+        self.quantity_changed.emit()
+        self.redraw_wanted.emit()
+
+    def set_weighted(self, weighted: bool) -> None:
+        """Weigh simplices by their measure in the source, or count them."""
+        self.is_weighted = weighted
+        self.redraw_wanted.emit()
+
+    def set_logarithmic_counts(self, logarithmic: bool) -> None:
+        self.has_logarithmic_counts = logarithmic
+        self.redraw_wanted.emit()
+
+    def set_mesh(self, mesh: Mesh | None) -> None:
+        """Take the source whose simplices are weighed."""
+        self._mesh, self._areas = mesh, None
+
     def set_theme(self, theme: Theme) -> None:
+        self._theme = theme
         self.plot.setBackground(theme.view)
         paint_axes(self.plot.getPlotItem(), theme)
-        colour = QColor(theme.accent)
-        self._bars.setPen(pg.mkPen(colour, width=1))
-        colour.setAlpha(120)
-        self._bars.setFillBrush(colour)
-        self._unit.setPen(pg.mkPen(theme.faint, width=1, style=pg.QtCore.Qt.PenStyle.DashLine))
+        self._centre.setPen(pg.mkPen(theme.faint, width=1, style=Qt.PenStyle.DashLine))
+        self._bars.setOpts(pen=pg.mkPen(theme.faint, width=0.6))
+        marked = QColor.fromRgbF(*BRUSH)
+        self._marked.setOpts(pen=pg.mkPen(None), brush=marked if theme.is_dark else marked.darker(210))
+        self._bin_brush.set_theme(theme)
+
+    # ------------------------------------------------------------------------------------------ showing
 
     def clear(self) -> None:
-        self.counts = np.zeros(0, np.int64)
-        self._bars.setData([0.0, 1.0], [0.0])
-        self.plot.setYRange(0.0, 1.0)
+        self.counts = self.brushed_counts = np.zeros(0)
+        self._bins = np.zeros(0, np.int64)
+        for item in (self._bars, self._marked):
+            item.setOpts(x0=[0.0], x1=[1.0], height=[0.0])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        values = snapshot.fields.get(CONFORMAL_FACTOR.id)
-        if values is None:
+        values = snapshot.fields.get(self.quantity)
+        if values is None or not len(values):
             return
-        edges, counts = average_histogram(values)
-        self.counts = np.asarray(counts)
-        self._bars.setData(np.asarray(edges, dtype=np.float64), np.asarray(counts, dtype=np.float64))
-        low, high = float(edges[0]), float(edges[-1])
-        if np.isfinite(low) and np.isfinite(high) and high > low:
-            self.plot.setXRange(low, high, padding=0.02)
-        self.plot.setYRange(0.0, max(float(self.counts.max()), 1.0), padding=0.04)
+        low, high, logarithmic = self.range.low, self.range.high, self.range.is_logarithmic
+        self._bins = bin_of(values, low, high, BINS, logarithmic=logarithmic)
+        self.counts = weight_in_bins(self._bins, BINS, self._weights())
+        edges = bin_edges(low, high, BINS, logarithmic=logarithmic)
+        if logarithmic:
+            edges = np.log10(edges)
+        plot = self.plot.getPlotItem()
+        for side, is_logarithmic in (("bottom", logarithmic), ("left", self.has_logarithmic_counts)):
+            plot.getAxis(side).setLogMode(is_logarithmic)
+        bottom = self._bottom()
+        colours = (self.range.colours(BINS) * 255).astype(int)
+        self._bars.setOpts(
+            x0=edges[:-1],
+            x1=edges[1:],
+            y0=bottom,
+            height=self._heights(self.counts) - bottom,
+            brushes=[QColor(*colour) for colour in colours.tolist()],
+        )
+        self._marked.setOpts(x0=edges[:-1], x1=edges[1:])
+        self._show_brush()
+        centre = self.range.centre
+        self._centre.setVisible(centre is not None)
+        if centre is not None:
+            self._centre.setValue(float(np.log10(centre)) if logarithmic else centre)
+        plot.setLabel("left", ("area" if self.is_weighted else "simplices"))
+        self.plot.setXRange(float(edges[0]), float(edges[-1]), padding=0.01)
+        top = float(self._heights(self.counts).max())
+        self.plot.setYRange(bottom, top if top > bottom else bottom + 1.0, padding=0.04)
+
+    def _weights(self) -> Floats | None:
+        if not self.is_weighted or self._mesh is None or self._mesh.simplex_count != len(self._bins):
+            return None
+        if self._areas is None:
+            self._areas = simplex_measures(self._mesh)
+        return self._areas
+
+    def _heights(self, counts: Floats) -> Floats:
+        """Heights on the axis: logarithms, where counts are shown so; empty bins stand at the bottom."""
+        if not self.has_logarithmic_counts:
+            return counts
+        return np.log10(np.maximum(counts, 10.0 ** self._bottom()))
+
+    def _bottom(self) -> float:
+        if not self.has_logarithmic_counts:
+            return 0.0
+        weights = self._weights()
+        smallest = 1.0 if weights is None else float(weights.min())
+        return float(np.log10(SMALLEST_PART * max(smallest, 1e-300)))
+
+    def _range_changed(self, id: str) -> None:
+        if id == self.quantity:
+            self.redraw_wanted.emit()
+
+    # ------------------------------------------------------------------------------------------ brush
+
+    def _show_brush(self) -> None:
+        """The part of each bar that belongs to brushed simplices."""
+        chosen = self._brush.simplices
+        chosen = chosen[chosen < len(self._bins)]
+        weights = self._weights()
+        self.brushed_counts = weight_in_bins(self._bins[chosen], BINS, None if weights is None else weights[chosen])
+        self._marked.setVisible(len(chosen) > 0)
+        if len(self._bins):
+            bottom = self._bottom()
+            self._marked.setOpts(y0=bottom, height=self._heights(self.brushed_counts) - bottom)
+
+    def _brush_between(self, begin: float, end: float) -> None:
+        """Brush the simplices of the bins from one place of the axis to another."""
+        if not len(self._bins):
+            return
+        scale = np.array([self.range.scaled(self.range.low), self.range.scaled(self.range.high)])
+        places = np.array([begin, end]) * (np.log(10.0) if self.range.is_logarithmic else 1.0)
+        first, last = np.clip((places - scale[0]) * (BINS / (scale[1] - scale[0])), 0, BINS - 1).astype(int)
+        self._brush.brush(np.flatnonzero((self._bins >= first) & (self._bins <= last)), ORIGIN)

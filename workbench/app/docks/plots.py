@@ -9,7 +9,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
-from workbench.app.quantities import rounded_up
+from workbench.app.range_fit import rounded_up
 from workbench.app.theme import Theme
 
 

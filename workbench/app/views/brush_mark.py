@@ -12,7 +12,7 @@ from workbench.app.views.actors import cells, line_actor, surface_actor
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers
 
-TINT = 0.4
+TINT = 0.3
 """Opacity of the tint: what lies below it, the yellow of inverted triangles too, is still told apart."""
 
 

@@ -26,13 +26,31 @@ def distortion_colours() -> NDArray[np.float64]:
     return table[TRIMMED:]
 
 
+@lru_cache(maxsize=1)
+def diverging_colours() -> NDArray[np.float64]:
+    """Colours (k, 3) in [0, 1] from blue (less) over a pale middle to red (more).
+
+    Perceptually uniform on both sides (Kovesi 2015, CET-D1); no yellow in it either.
+    """
+    import colorcet
+
+    return np.array([_rgb(text) for text in colorcet.palette["CET_D1"]])
+
+
 def _rgb(text: str) -> list[float]:
     return [int(text[i : i + 2], 16) / 255 for i in (1, 3, 5)]
 
 
-def lookup_table(colours: NDArray[np.float64], low: float, high: float) -> vtkLookupTable:
-    """A VTK table of `colours` (k, 3) over [low, high]; NaN is drawn in the colour of inverted simplices."""
+def lookup_table(
+    colours: NDArray[np.float64], low: float, high: float, *, logarithmic: bool = False
+) -> vtkLookupTable:
+    """A VTK table of `colours` (k, 3) over [low, high]; NaN is drawn in the colour of inverted simplices.
+
+    `logarithmic`: equal factors have equal steps of colour; `low` is positive then.
+    """
     table = vtkLookupTable()
+    if logarithmic:
+        table.SetScaleToLog10()
     table.SetNumberOfTableValues(len(colours))
     for row, colour in enumerate(colours):
         table.SetTableValue(row, (*(float(c) for c in colour), 1.0))

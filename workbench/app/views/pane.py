@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.colour_legend import ColourLegend
+from workbench.app.colour_range import ColourRange
+from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantity_chooser import QuantityChooser
 from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
 
 
 class ViewPane(QWidget):
-    """Title, choice of colouring, and the view; `add_below` puts a colour bar under it."""
+    """Title, choice of colouring, the view, and a colour bar below it while it is coloured by a quantity."""
 
     style_chosen = Signal(str)
 
-    def __init__(self, title: str, styles: dict[str, str], theme: Theme, parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        title: str,
+        styles: dict[str, str],
+        book: QuantityBook,
+        theme: Theme,
+        parent: QWidget | None = None,
+    ) -> None:
+        """`styles` are the patterns that are offered beside the quantities of the book: id -> label."""
         super().__init__(parent)
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
@@ -26,20 +38,31 @@ class ViewPane(QWidget):
         self.caption = QLabel("", self)
         self.caption.setObjectName("citation")
         self.caption.setMinimumWidth(10)
-        self.style_box = QComboBox(self)
-        for id, label in styles.items():
-            self.style_box.addItem(label, id)
-        self.style_box.setToolTip(f"How the {title.lower()} is coloured")
-        self.style_box.activated.connect(lambda _: self.style_chosen.emit(self.style_box.currentData()))
+        self.chooser = QuantityChooser(book, next(iter(styles)), styles, self)
+        self.chooser.chosen.connect(self.style_chosen)
+        self.chooser.setMinimumContentsLength(21)
         header.addWidget(name)
         header.addWidget(self.caption, 1)
-        header.addWidget(self.style_box)
+        header.addWidget(self.chooser)
         self._layout.addLayout(header)
         self.view = MeshView(theme, self)
         self._layout.addWidget(self.view, 1)
-
-    def add_below(self, widget: QWidget) -> None:
-        self._layout.addWidget(widget)
+        self.legend = ColourLegend(book.range_of(book.quantities[0].id), self)
+        self.legend.hide()
+        self._layout.addWidget(self.legend)
 
     def set_style(self, id: str) -> None:
-        self.style_box.setCurrentIndex(self.style_box.findData(id))
+        self.chooser.show_choice(id)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.view.set_theme(theme)
+        self.legend.set_theme(theme)
+
+    def show_colours(self, colour_range: ColourRange | None) -> None:
+        """Draw in the colours of a range, its bar below; None hides the bar."""
+        self.legend.setVisible(colour_range is not None)
+        if colour_range is None:
+            return
+        self.legend.show_range(colour_range)
+        if self.view.surface is not None:
+            self.view.surface.show_range(colour_range)

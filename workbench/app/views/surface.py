@@ -9,12 +9,13 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from workbench.app.colour_range import ColourRange
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushMark
 from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
-from workbench.app.views.colours import distortion_colours, lookup_table, single_colour
+from workbench.app.views.colours import lookup_table, single_colour
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
 from workbench.core.arrays import Booleans, Integers
@@ -95,12 +96,13 @@ class Surface:
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
 
-    def show_range(self, low: float, high: float) -> None:
-        """Colours of a distortion from `low` to `high`."""
+    def show_range(self, colour_range: ColourRange) -> None:
+        """Colours of a quantity over its range."""
         self._drop_texture()
         self._actor.GetProperty().SetEdgeOpacity(0.3)
         self._is_plain = False
-        self._mapper.SetLookupTable(lookup_table(distortion_colours(), low, high))
+        low, high, is_logarithmic = colour_range.low, colour_range.high, colour_range.is_logarithmic
+        self._mapper.SetLookupTable(lookup_table(colour_range.colours(), low, high, logarithmic=is_logarithmic))
 
     def show_pattern(self, pattern: Pattern) -> None:
         """A pattern laid over the triangles; `set_texture_positions` says where."""
