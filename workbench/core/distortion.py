@@ -34,6 +34,7 @@ class Distortion:
     formula_on_inverted : str   the formula, without its barrier, for simplices that are inverted at the start; a barrier then
                            holds on the others only. Where there is no start, the sign of the last singular value decides
     power : float          D is raised to it, or is the logarithm of the formula where it is 0 (see `tempered`)
+    softening : float      sqrt(sigma_i^2 + softening^2) stands for each sigma_i
     """
 
     id: str
@@ -48,6 +49,7 @@ class Distortion:
     kinds: tuple[Kind, ...] = KINDS
     formula_on_inverted: str = ""
     power: float = 1.0
+    softening: float = 0.0
 
     def with_values(self, values: Mapping[str, Any]) -> Distortion:
         """The same distortion with other parameter values. Raises `WorkbenchError` for unknown names or ranges."""
@@ -68,6 +70,10 @@ class Distortion:
     def _compiled(self) -> dict[int, CompiledFormula]:
         return {}
 
+    @cached_property
+    def _kinked_at_zero(self) -> dict[int, bool]:
+        return {}
+
     def compiled(self, dimension: int) -> CompiledFormula:
         """The formula compiled for n = `dimension`. Raises `FormulaError`."""
         if dimension not in self._compiled:
@@ -78,6 +84,7 @@ class Distortion:
                 _formula_of,
                 text_on_inverted=self.formula_on_inverted,
                 power=self.power,
+                softening=self.softening,
             )
         return self._compiled[dimension]
 
@@ -89,6 +96,15 @@ class Distortion:
         if not has_logarithm(self.compiled(dimension)):
             return None
         return replace(self, power=power, barrier=self.has_barrier(dimension))
+
+    def is_kinked_at_zero(self, dimension: int) -> bool:
+        """Whether D, like a norm, grows at a finite rate from where all singular values vanish, and has no barrier."""
+        if dimension not in self._kinked_at_zero:
+            first = self.compiled(dimension).gradient
+            tiny = self._raw(first, np.full((1, dimension), 1e-12))[0, 1 : dimension + 1]
+            kinked = not self.has_barrier(dimension) and bool(np.isfinite(tiny).all() and (tiny > 1e-6).any())
+            self._kinked_at_zero[dimension] = kinked
+        return self._kinked_at_zero[dimension]
 
     @property
     def looks_at_start(self) -> bool:

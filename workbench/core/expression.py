@@ -60,6 +60,7 @@ class Graph:
         self.zero = self.constant(0.0)
         self.one = self.constant(1.0)
         self.variables = [self._node(Op.VARIABLE, float(i), ()) for i in range(variable_count)]
+        self.singular_values = self.variables  # what a formula means by sigma
 
     def _node(self, op: Op, value: float, arguments: tuple[int, ...]) -> int:
         key = (op, value, arguments)

@@ -75,6 +75,7 @@ def compile_formula(
     *,
     text_on_inverted: str = "",
     power: float = 1.0,
+    softening: float = 0.0,
 ) -> CompiledFormula:
     """Check and compile a formula.
 
@@ -85,11 +86,15 @@ def compile_formula(
     parameters : dict    declared names and their values
     resolve : callable   name with underscores -> (formula, its parameters) of another distortion, or None
     text_on_inverted : str   a second formula for simplices that are inverted at the start
+    softening : float    sqrt(sigma_i^2 + softening^2) stands for each sigma_i
     power : float        compile D^power instead, or log D where it is 0, of a formula that is an exponential
 
     Raises `FormulaError` with a sentence and the place for everything that is not allowed.
     """
     graph = Graph(dimension)
+    if softening:
+        square = graph.constant(softening**2)
+        graph.singular_values = [graph.sqrt(graph.add(graph.multiply(v, v), square)) for v in graph.variables]
     bound = dict(parameters or {})
     root = _read_number(graph, bound, resolve, text)
     exponent = _logarithm(graph, root) if power != 1.0 else None
@@ -267,19 +272,19 @@ class _Reader:
         if node.id in self.parameters:
             return graph.constant(float(self.parameters[node.id]))
         if node.id == "sigma":
-            return list(graph.variables)
+            return list(graph.singular_values)
         if node.id == "n":
             return graph.constant(float(n))
         if node.id == "det":
-            return self.fold(list(graph.variables), graph.multiply)
+            return self.fold(list(graph.singular_values), graph.multiply)
         if node.id == "sigman":
-            return graph.variables[-1]
+            return graph.singular_values[-1]
         match = re.fullmatch(r"sigma([1-9]\d{0,3})", node.id)
         if match:
             index = int(match.group(1))
             if index > n:
                 raise self.fail(node, f"{node.id} does not exist in dimension {n}; the last one is sigma{n} (or sigman).")
-            return graph.variables[index - 1]
+            return graph.singular_values[index - 1]
         if node.id in FUNCTIONS:
             raise self.fail(node, f"{node.id} is a function; write {node.id}(...).")
         return self.other_distortion(node)
@@ -357,8 +362,8 @@ class _Reader:
 
     def extreme(self, argument: Value, name: str, operation: Callable[[int, int], int]) -> int:
         # Singular values come sorted, so the extremes of sigma itself are its first and its last one.
-        if argument == self.graph.variables:
-            return self.graph.variables[0 if name == "max" else -1]
+        if argument == self.graph.singular_values:
+            return self.graph.singular_values[0 if name == "max" else -1]
         return self.fold(argument, operation)
 
     def largest(self, node: ast.Call, argument: Value) -> Vector:
@@ -366,7 +371,7 @@ class _Reader:
         n = self.graph.variable_count
         if count is None or count != int(count) or not 1 <= count <= n:
             raise self.fail(node, f"largest(k) takes a whole number from 1 to {n}.")
-        return list(self.graph.variables[: int(count)])
+        return list(self.graph.singular_values[: int(count)])
 
     def fold(self, argument: Value, operation: Callable[[int, int], int]) -> int:
         if not isinstance(argument, list):

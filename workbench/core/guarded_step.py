@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.core.errors import WorkbenchError
-from workbench.core.overflow import step_in_stages
+from workbench.core.overflow import tempered_step
 from workbench.core.problem import Problem
+from workbench.core.softening import softened_step
 from workbench.core.solver import Interrupt, Solver
 from workbench.core.state import State
 from workbench.core.status import Status
@@ -19,12 +20,12 @@ class SolverFaultError(WorkbenchError):
 
 
 def guarded_step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
-    """A step of `solver` (see `workbench.core.overflow`), checked: a map of the right shape, finite, and without inverted simplices where it had none.
+    """A step of `solver`, checked: a map of the right shape, finite, and without inverted simplices where it had none.
 
     Positions that are not finite end the run with NONFINITE on the map before. Raises `SolverFaultError` for all else.
     """
     try:
-        following = step_in_stages(solver, problem, state, interrupt)
+        following = _step(solver, problem, state, interrupt)
     except (Exception, SystemExit) as error:
         said = f"{type(error).__name__}: {error}".rstrip(": ")
         raise SolverFaultError(f"{solver.label} failed in step {state.iteration + 1}: {said}") from error
@@ -45,3 +46,12 @@ def checked(solver: Solver, problem: Problem, state: State, following: State) ->
     if state.inverted == 0 and problem.forbids_inversions and problem.inverted(following.positions):
         raise SolverFaultError(f"{solver.label} made a map with inverted simplices; the last good map is kept.")
     return following
+
+
+def _step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
+    """A step in stages where a plain one would fail: on exponentials far out, on norms that collapse simplices."""
+    if problem.may_overflow:
+        return tempered_step(solver, problem, state, interrupt)
+    if problem.may_collapse:
+        return softened_step(solver, problem, state, interrupt)
+    return solver.step(problem, state, interrupt)

@@ -31,9 +31,9 @@ class Tempered:
     power: float
 
 
-def step_in_stages(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
-    """`solver.step`, on a power of the distortion where that is an exponential and far from its minimum."""
-    if state.energy <= FAR * problem.total_measure or not problem.may_overflow:
+def tempered_step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
+    """`solver.step` for a distortion that is an exponential, on a power of it while it is far from its minimum."""
+    if state.energy <= FAR * problem.total_measure:
         return _direct(solver, problem, state, interrupt)
     wanted = _power(problem, state)
     kept = state.memory if isinstance(state.memory, Tempered) and state.memory.problem is problem else None
@@ -42,7 +42,7 @@ def step_in_stages(solver: Solver, problem: Problem, state: State, interrupt: In
         if kept is None or kept.power != power:
             tempered = problem.tempered(power)
             kept = Tempered(problem, tempered, solver.rebase(tempered, state), power)
-        following = _tempered_step(solver, kept, state, interrupt)
+        following = _attempt(solver, kept, state, interrupt)
         if following is not None:
             return following
         if power == 0.0 and not math.isfinite(state.energy):
@@ -51,7 +51,7 @@ def step_in_stages(solver: Solver, problem: Problem, state: State, interrupt: In
     return _direct(solver, problem, state, interrupt)
 
 
-def _tempered_step(solver: Solver, kept: Tempered, state: State, interrupt: Interrupt) -> State | None:
+def _attempt(solver: Solver, kept: Tempered, state: State, interrupt: Interrupt) -> State | None:
     """The state after a step on the tempered problem; None where that does not lessen the energy proper."""
     problem, inner = kept.problem, kept.state
     following = solver.step(kept.tempered, inner, interrupt)

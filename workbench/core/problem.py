@@ -21,6 +21,7 @@ from workbench.core.laplacian_system import LaplacianSystem
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.newton_system import NewtonSystem
+from workbench.core.vertex_blocks import VertexBlock, vertex_blocks
 
 ANCHOR_TOLERANCE = 1e-9
 """An anchor is in place within this part of the source's diameter."""
@@ -47,6 +48,7 @@ class Workspace:
         self._energy = energy
         self._system: NewtonSystem | None = None
         self._laplacian: LaplacianSystem | None = None
+        self._blocks: tuple[VertexBlock, ...] | None = None
         self.seconds = {"assemble": 0.0, "line_search": 0.0}
         self.counts = {"energy": 0, "gradient": 0, "hessian": 0, "trials": 0}
         self.groups: tuple[bytes, list[np.ndarray]] | None = None
@@ -64,6 +66,13 @@ class Workspace:
         if self._laplacian is None:
             self._laplacian = LaplacianSystem(self._energy.elements, self._energy.pattern.order)
         return self._laplacian
+
+    @property
+    def vertex_blocks(self) -> tuple[VertexBlock, ...]:
+        """The vertices by colour, made when first asked for."""
+        if self._blocks is None:
+            self._blocks = vertex_blocks(self._energy.elements)
+        return self._blocks
 
     def forget_factor(self) -> None:
         if self._system is not None:
@@ -151,6 +160,16 @@ class Problem:
         """The same problem with the distortion raised to `power`, or its logarithm where that is 0; see `may_overflow`."""
         distortion = self.distortion.tempered(self.dimension, power)
         assert distortion is not None
+        return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
+
+    @property
+    def may_collapse(self) -> bool:
+        """Whether the distortion, like a norm, has a kink where singular values vanish and no barrier before it."""
+        return self.distortion.is_kinked_at_zero(self.dimension)
+
+    def softened(self, softening: float) -> Problem:
+        """The same problem on sqrt(sigma^2 + softening^2) in place of sigma; see `may_collapse`."""
+        distortion = replace(self.distortion, softening=softening, barrier=False)
         return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
 
     def with_criteria(self, criteria: Criteria) -> Problem:
