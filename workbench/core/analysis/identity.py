@@ -4,7 +4,8 @@ Two expressions that agree at random points modulo a large prime are equal as ra
 2^-100 (Schwartz-Zippel). Rational powers are exact as well: the singular values are squares modulo p = 2q + 1, and in the group
 of squares, of prime order q, every power has a meaning under which the laws of powers hold. exp, log, max, min and abs are
 names: each gives a number that depends on its argument (of max and min: on the set of their arguments) and on nothing else, so
-that equal results still mean equal functions. What is found equal is equal; what is not may be so by a law not known here.
+that equal results still mean equal functions; of their own laws only exp(-x) = 1/exp(x) and log(1/x) = -log(x) are built in.
+What is found equal is equal; what is not may be so by a law not known here.
 """
 
 from __future__ import annotations
@@ -78,7 +79,11 @@ def _combined(op: Op, v: list[int], exponent: float | None) -> int:
         return _power(v[0], _fraction(exponent))
     if op is Op.ABS:
         return _name(op, sorted((v[0], (PRIME - v[0]) % PRIME)))
-    if op in (Op.EXP, Op.LOG, Op.POWER):
+    if op is Op.EXP:  # so that exp(-x) = 1/exp(x)
+        return _name(op, v) * _power(_name(op, [-v[0] % PRIME]), Fraction(-1)) % PRIME
+    if op is Op.LOG:  # so that log(1/x) = -log(x)
+        return (_name(op, v) - _name(op, [_power(v[0], Fraction(-1))])) % PRIME
+    if op is Op.POWER:
         return _name(op, v)
     raise UndefinedError
 
