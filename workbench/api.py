@@ -41,6 +41,7 @@ from workbench.core.run import RunResult, run
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
+from workbench.core.vertex_descent import descend_block
 
 
 def map_from_file(path: str, mesh: Mesh, kind: Kind) -> Floats:
@@ -92,6 +93,7 @@ __all__ = [
     "cotangent_weights",
     "derivatives_at",
     "descend",
+    "descend_block",
     "direction_in_laplacian",
     "direction_in_metric",
     "dirichlet_matrix",

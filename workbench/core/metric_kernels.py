@@ -10,8 +10,7 @@ import math
 import numba
 import numpy as np
 
-from workbench.core.jacobians import target_edges_3d
-from workbench.core.singular_values import determinant_3x3, signed_svd_2x2, signed_svd_3x3
+from workbench.core.simplex_kernels import frames_of, hats_of, jacobian_of
 from workbench.core.tape import run_tape
 
 TIE = 1e-8
@@ -20,10 +19,11 @@ TIE = 1e-8
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def reweighted_metric(  # type: ignore[no-untyped-def]
-    x, simplices, inverse_rest, weights, code, outputs, memory, centre, slots, start, stop, values
+    x, simplices, inverse_rest, weights, kept, code, outputs, memory, centre, slots, start, stop, values
 ):
     """Add w (h_a . h_b) U diag(k) U^T for every two corners a, b: k_i = D_i / (sigma_i - s) (see `workbench.core.metrics`).
 
+    kept : (m,) or (0,) float64   whether a simplex keeps its barrier, for densities that ask
     centre : float     s; below 0: the geometric mean of each simplex's own singular values
     values : (nnz,)    added to through slots
     """
@@ -36,16 +36,12 @@ def reweighted_metric(  # type: ignore[no-untyped-def]
         count = min(lanes, stop - block)
         for lane in range(count):
             e = block + lane
-            det = _jacobian(x, simplices, inverse_rest, e, D, J)
-            U = frames[lane]
-            if n == 2:
-                s1, s2, uc, us, _, _ = signed_svd_2x2(J[0, 0], J[0, 1], J[1, 0], J[1, 1], det)
-                signed[lane, 0], signed[lane, 1] = s1, s2
-                U[0, 0], U[0, 1], U[1, 0], U[1, 1] = uc, -us, us, uc
-            else:
-                signed_svd_3x3(J, U, signed[lane], V)
+            det = jacobian_of(x, simplices, inverse_rest, e, D, J)
+            frames_of(J, det, n, frames[lane], signed[lane], V)
             for i in range(n):
                 memory[i, lane] = abs(signed[lane, i])
+            if len(kept):
+                memory[n, lane] = kept[e]
         run_tape(code, memory)
         for lane in range(count):
             e = block + lane
@@ -73,7 +69,7 @@ def reweighted_metric(  # type: ignore[no-untyped-def]
                     M[i, j] = 0.0
                     for c in range(n):
                         M[i, j] += U[i, c] * k[c] * U[j, c]
-            _hats(inverse_rest, e, H)
+            hats_of(inverse_rest, e, H)
             slot = 0
             for p in range((n + 1) * n):
                 a, i = p // n, p % n
@@ -108,7 +104,7 @@ def killing_metric(x, simplices, inverse_rest, weights, slots, start, stop, valu
     D, J, inverse = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
     H, G = np.empty((n + 1, n)), np.empty((n + 1, n))
     for e in range(start, stop):
-        det = _jacobian(x, simplices, inverse_rest, e, D, J)
+        det = jacobian_of(x, simplices, inverse_rest, e, D, J)
         size = 0.0
         for i in range(n):
             for j in range(n):
@@ -125,7 +121,7 @@ def killing_metric(x, simplices, inverse_rest, weights, slots, start, stop, valu
                     r, s = (j + 1) % 3, (j + 2) % 3
                     c, d = (i + 1) % 3, (i + 2) % 3
                     inverse[i, j] = (J[r, c] * J[s, d] - J[r, d] * J[s, c]) / det
-        _hats(inverse_rest, e, H)
+        hats_of(inverse_rest, e, H)
         for a in range(n + 1):
             for j in range(n):
                 G[a, j] = 0.0
@@ -143,34 +139,3 @@ def killing_metric(x, simplices, inverse_rest, weights, slots, start, stop, valu
                         entry += G[a, c] * G[b, c]
                 values[slots[e, slot]] += w * entry
                 slot += 1
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def _jacobian(x, simplices, inverse_rest, e, D, J):  # type: ignore[no-untyped-def]
-    """Write the Jacobian of simplex e into J, return its determinant, from the edges."""
-    n = x.shape[1]
-    if n == 2:
-        i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-        D[0, 0], D[1, 0] = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-        D[0, 1], D[1, 1] = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-        m = inverse_rest[e]
-        det = (D[0, 0] * D[1, 1] - D[1, 0] * D[0, 1]) * (m[0, 0] * m[1, 1] - m[0, 1] * m[1, 0])
-    else:
-        det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
-    for r in range(n):
-        for c in range(n):
-            J[r, c] = 0.0
-            for t in range(n):
-                J[r, c] += D[r, t] * inverse_rest[e, t, c]
-    return det
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def _hats(inverse_rest, e, H):  # type: ignore[no-untyped-def]
-    """Write the gradients of the hat functions of simplex e, in its own frame, into H (n + 1, n)."""
-    n = H.shape[1]
-    for c in range(n):
-        H[0, c] = 0.0
-        for j in range(n):
-            H[j + 1, c] = inverse_rest[e, j, c]
-            H[0, c] -= inverse_rest[e, j, c]

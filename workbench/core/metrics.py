@@ -35,11 +35,14 @@ def reweighted_laplacian(problem: Problem, positions: Floats) -> Floats:
     e, pattern = problem.elements, problem.density.pattern
     tape = problem.distortion.compiled(e.dimension).hessian
     centre = nearest_minimiser(problem.distortion, e.dimension)
+    kept = problem.density.kept
+    if problem.distortion.looks_at_start and not len(kept):
+        kept = np.ones(len(e.simplices))
 
     def add(start: int, stop: int, values: Floats) -> None:
         reweighted_metric(
-            positions, e.simplices, e.inverse_rest, e.rest_measures, tape.code, tape.outputs, tape.registers(), centre,
-            pattern.slots, start, stop, values,
+            positions, e.simplices, e.inverse_rest, e.rest_measures, kept, tape.code, tape.outputs,
+            tape.registers(), centre, pattern.slots, start, stop, values,
         )  # fmt: skip
 
     return _summed(problem, add)
