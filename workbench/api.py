@@ -37,6 +37,7 @@ from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
 from workbench.core.progressive_reference import progressive_problem
 from workbench.core.quasi_newton_solver import QuasiNewtonSolver
+from workbench.core.refine import Refined, refine
 from workbench.core.run import RunResult, run
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
@@ -77,6 +78,7 @@ __all__ = [
     "Parameter",
     "Problem",
     "QuasiNewtonSolver",
+    "Refined",
     "RunResult",
     "SingularMatrixError",
     "Solver",
@@ -116,6 +118,7 @@ __all__ = [
     "never",
     "parameter",
     "progressive_problem",
+    "refine",
     "reweighted_laplacian",
     "run",
     "signed_areas",

@@ -174,11 +174,13 @@ def test_the_boundary_becomes_the_spline_of_the_boundary_alone(scheme: str, dome
 
 
 def test_vertices_in_no_triangle_and_pinched_ones_stay() -> None:
-    points = np.array([[0.0, 0.0], [1, 0], [1, 1], [-1, 0], [-1, -1], [9, 9]])
+    points = np.array([[0.0, 0.0], [1, 0], [2, 1], [-1, 0], [-1, -1], [9, 9]])
     bow = Mesh(points, [[0, 1, 2], [0, 3, 4]])
     for scheme in ("loop", "catmull-clark"):
-        moved = refine(bow, None, scheme, 2).mesh.vertices
-        np.testing.assert_array_equal(moved[[0, 5]], points[[0, 5]])
+        for levels in (1, 2):
+            moved = refine(bow, None, scheme, levels).mesh.vertices
+            np.testing.assert_array_equal(moved[[0, 5]], points[[0, 5]])
+            assert (moved[1:5] != points[1:5]).any(axis=1).all()
 
 
 @pytest.mark.parametrize("scheme", ["loop", "catmull-clark"])

@@ -120,8 +120,21 @@ def maps() -> list[Entry]:
 def analyses() -> list[Entry]:
     """What can be asked of a map beside its measures."""
     from workbench.core.method import KINDS
+    from workbench.core.refine import SCHEMES
 
-    return [_entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)]
+    verdicts = _entry("analyses", "verdicts", "Local and global injectivity, with the offenders", "(67), Theorem 5.1", KINDS)
+    refinements = [
+        _entry(
+            "analyses",
+            f"refine-{id}",
+            f"Source and map refined together ({label}), distortion against level",
+            "Theorem 9.1, Fig. 20" if id == "linear" else "Fig. 20",
+            KINDS if id == "linear" else ("plane", "parameterize"),
+            option=f"refine --scheme {id}",
+        )
+        for id, label in SCHEMES.items()
+    ]
+    return [verdicts, *refinements]
 
 
 def samples() -> list[Entry]:
