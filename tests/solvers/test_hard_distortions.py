@@ -1,0 +1,119 @@
+"""Minimising what is not smooth, overflows, collapses simplices or looks at the start."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from tests.conftest import grid, tetrahedral_grid
+from workbench.core.constraints import Anchors
+from workbench.core.distortion import Distortion
+from workbench.core.jacobians import determinants
+from workbench.core.mesh import Mesh
+from workbench.core.problem import Problem
+from workbench.core.registry import registry
+from workbench.core.run import RunResult, run
+from workbench.core.samples import make_sample
+from workbench.core.status import Status
+from workbench.engine.starts import make_start
+
+
+def newton(
+    problem: Problem, start: np.ndarray, tolerance: float = 1e-6, iterations: int = 400
+) -> tuple[RunResult, list[float]]:
+    energies: list[float] = []
+    solver = registry().solvers["projected-newton"]()
+    result = run(solver, problem, start, tolerance=tolerance, on_state=lambda state: energies.append(state.energy))
+    assert all(after <= before for before, after in pairwise(energies)), "the energy rose"
+    return result, energies
+
+
+@pytest.fixture(scope="module")
+def bumpy() -> tuple[Mesh, np.ndarray]:
+    mesh = make_sample("bumpy-disc", triangles=1500)
+    return mesh, make_start(mesh, "parameterize", "tutte", {}, "", False)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ["condition-number", "lam*symmetric_dirichlet + (1 - lam)*condition_number", "quasi-isometric", "symmetric-arap"],
+)
+def test_kinks_do_not_hold_newton_up(formula: str, bumpy: tuple[Mesh, np.ndarray]) -> None:
+    """The minimum is below what the smooth relative of the distortion reaches, and nothing inverts on the way."""
+    mesh, start = bumpy
+    values = {"lam": 1e-3} if "lam" in formula else {}
+    problem = Problem.create(mesh, "parameterize", Distortion.resolve(formula, values))
+    result, _ = newton(problem, start)
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    is_conformal = "condition" in formula
+    relative = registry().distortions["mips" if is_conformal else "symmetric-dirichlet"]
+    smooth, _ = newton(Problem.create(mesh, "parameterize", relative), start)
+    assert result.state.energy < problem.energy(smooth.state.positions)
+
+
+@pytest.mark.parametrize("formula", ["amips", "amips-smooth", "exp(symmetric_dirichlet)", "2*exp(3*mips)"])
+@pytest.mark.parametrize("kind", ["plane", "volume"])
+def test_exponentials_that_overflow_reach_the_minimum_of_those_that_do_not(formula: str, kind: str) -> None:
+    mesh = grid(6) if kind == "plane" else tetrahedral_grid(2)
+    n = mesh.dimension
+    held = np.array([0, mesh.vertex_count - 1])
+    near = mesh.vertices @ np.diag([1.2, 0.9, 1.0][:n])
+    problem = Problem.create(mesh, kind, Distortion.resolve(formula), Anchors(held, near[held]))  # type: ignore[arg-type]
+    far = near.copy()
+    inner = (mesh.vertices[:, 0] > 0.05) & (mesh.vertices[:, 0] < 0.95)
+    far[inner, 0] = near[0, 0] + 1e-4 * mesh.vertices[inner, 0]  # a sheet of needles
+    assert not np.isfinite(problem.energy(far))
+    expected, _ = newton(problem, near, 1e-12)
+    result, energies = newton(problem, far, 1e-12)
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    assert np.isinf(energies[0])
+    assert result.state.energy == pytest.approx(expected.state.energy, rel=1e-7)
+
+
+@pytest.mark.parametrize(("id", "values"), [("dirichlet", {}), ("lp-gauge", {"p": 2.0}), ("lp-gauge", {"p": 3.0})])
+def test_convex_energies_have_one_minimum_from_three_starts(id: str, values: dict[str, float]) -> None:
+    """The problems of Fig. 18: a bar with its ends held."""
+    mesh = make_sample("bar-3d", triangles=600)
+    v = mesh.vertices
+    along = (v[:, 0] - v[:, 0].min()) / np.ptp(v[:, 0])
+    ends = np.flatnonzero((along < 1e-9) | (along > 1 - 1e-9))
+    problem = Problem.create(mesh, "volume", Distortion.resolve(id, values), Anchors(ends, v[ends]))
+    bent = v + np.outer(np.sin(np.pi * along), [0.0, 0.4, 0.0])
+    angle = 2.0 * np.sin(np.pi * along)
+    centre = v.mean(axis=0)
+    cosine, sine = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    y, z = np.hsplit((v - centre)[:, 1:], 2)
+    turned = np.hstack([v[:, :1], centre[1] + cosine * y - sine * z, centre[2] + sine * y + cosine * z])
+    energies = [newton(problem, start, 1e-12)[0].state.energy for start in (v, bent, turned)]
+    assert max(energies) - min(energies) <= 1e-8 * min(energies)
+
+
+def test_a_filtered_barrier_lets_inverted_triangles_unfold_and_holds_the_others() -> None:
+    mesh = grid(6)
+    start = mesh.vertices.copy()
+    folded = 24
+    start[folded] += [0.3, 0.05]  # over its neighbours
+    distortion = registry().distortions["symmetric-dirichlet-filtered"]
+    boundary = mesh.topology.boundary_vertices
+    problem = Problem.create(mesh, "plane", distortion, Anchors(boundary, mesh.vertices[boundary]))
+    assert problem.inverted(start) > 0
+    plain = Problem.create(mesh, "plane", registry().distortions["symmetric-dirichlet"], problem.anchors)
+    assert newton(plain, start)[0].state.status is Status.INVERTED_START
+    upright = problem.from_start(start).density.kept > 0.5
+    worst: list[float] = []
+    solver = registry().solvers["projected-newton"]()
+    result = run(
+        solver,
+        problem,
+        start,
+        on_state=lambda state: worst.append(determinants(problem.elements, state.positions)[upright].min()),
+    )
+    assert min(worst) > 0
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    clean = newton(problem, mesh.vertices)[0]
+    assert clean.state.energy == pytest.approx(4.0 * problem.total_measure, rel=1e-9)
