@@ -7,59 +7,77 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import add_source_options
-from workbench.cli.output import json_text, number, table
-from workbench.core.errors import MeshError
+from workbench.cli.output import check_places, json_text, number, table
+from workbench.cli.settings import add_set_option, distortion_parameters
+from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
-    from workbench.core.arrays import Floats
-    from workbench.core.mesh import Mesh
+    from workbench.core.measure import Measure
+    from workbench.engine.map_file import MapFile
 
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="every measure of a map, inverted simplices, injectivity verdicts")
-    parser.add_argument("source", metavar="SOURCE", help="mesh file; without TARGET its vt (OBJ) or X (npz) is the map")
-    parser.add_argument("target", nargs="?", metavar="TARGET", help="file of the map: vt, X, or positions")
+    add = parser.add_argument
+    add("source", metavar="SOURCE", help="mesh file; without TARGET its vt (OBJ) or X (npz) is the map")
+    add("target", nargs="?", metavar="TARGET", help="file of the map: vt, X, or positions")
     add_source_options(parser)
-    parser.add_argument("--json", action="store_true", help="one JSON object")
+    add(
+        "--distortion", dest="distortions", action="append", default=[], metavar="ID|FORMULA",
+        help="measure this, too; may be given many times",
+    )  # fmt: skip
+    add_set_option(parser, "the distortions named, each that has it")
+    add("--simplices", metavar="OUT.csv", help="write a row a simplex: singular values, det, every measure, area")
+    add("--json", action="store_true", help="one JSON object")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure and print."""
-    from workbench.core.quality import measure_map
+    """Measure, print, write."""
+    from workbench.core.quality import measure_map, simplex_table
+    from workbench.io.atomic import write_text
+    from workbench.io.write import simplex_table_text
 
-    mesh, positions = _source_and_map(options)
-    measured = measure_map(mesh, positions)
+    check_places([options.simplices] if options.simplices else [])
+    others = _measures(options.distortions, options.settings)
+    opened = open_given_map(options)
+    measured = measure_map(opened.mesh, opened.positions, others)
+    if options.simplices:
+        write_text(options.simplices, simplex_table_text(simplex_table(opened.mesh, opened.positions, others)))
     print(json_text(measured) if options.json else _text(measured), end="")
     return 0
 
 
-def _source_and_map(options: argparse.Namespace) -> tuple[Mesh, Floats]:
-    """The source, and the map of TARGET or else the one that SOURCE holds itself.
+def open_given_map(options: argparse.Namespace) -> MapFile:
+    """The map that the options name; says so where it is measured as its reflection."""
+    from workbench.engine.map_file import open_map
 
-    A map is measured on any mesh, a disc or not; where texture coordinates are the map, their seams are part of it.
-    """
-    import numpy as np
-
-    from workbench.core.fixes import apply_fixes
-    from workbench.core.kinds import resolve_kind, source_for_kind
-    from workbench.engine.starts import adjusted_start
-    from workbench.io.opening import map_from_file, read_source
-
-    name, target = options.source, options.target
-    file = read_source(name, tets=options.tets)
-    holds_map = file.map_positions is not None or file.mesh.texture is not None
-    if target is None and not holds_map:
-        raise MeshError(f"{name} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does.")
-    fixes = options.fixes or ("unreferenced", *(("seams",) if target is None else ()))
-    fixed = apply_fixes(file.mesh, fixes).mesh
-    kind = resolve_kind(fixed, options.map)
-    mesh = source_for_kind(fixed, kind)
-    positions = map_from_file(target or name, mesh, kind)
-    adjusted = adjusted_start(mesh, kind, positions, match_area=False)
-    if not np.array_equal(adjusted, positions):
+    opened = open_map(options.source, options.target, kind=options.map, fixes=tuple(options.fixes), tets=options.tets)
+    if opened.was_mirrored:
         print("The map is mirrored as a whole; it is measured as its reflection.", file=sys.stderr)
-    return mesh, adjusted
+    return opened
+
+
+def _measures(texts: list[str], settings: list[tuple[str, str]]) -> tuple[Measure, ...]:
+    """The measures named, with the settings that each of them has. Raises `WorkbenchError` for one that none has."""
+    from workbench.cli.settings import assign
+    from workbench.core.distortion import Distortion
+    from workbench.core.measure import DESCRIPTORS, Measure
+
+    forms = {text: () if text in DESCRIPTORS else distortion_parameters(text) for text in texts}
+    for name, _ in settings:
+        if not any(name in form for form in forms.values()):
+            known = ", ".join(dict.fromkeys(item for form in forms.values() for item in form)) or "none"
+            raise WorkbenchError(f"There is no parameter {name!r} to set; there are: {known}.")
+    measures = []
+    for text, form in forms.items():
+        if text in DESCRIPTORS:
+            measures.append(Measure(text))
+            continue
+        (values,) = assign([(name, value) for name, value in settings if name in form], text)
+        given = Distortion.resolve(text, values).parameter_values
+        measures.append(Measure.of(text, {name: given[name] for name in values}))
+    return tuple(measures)
 
 
 def _text(measured: dict[str, Any]) -> str:

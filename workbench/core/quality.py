@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
 from workbench.core.jacobians import build_elements, determinants, signed_singular_values
+from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
 
 HISTOGRAM_BINS = 64
@@ -30,29 +32,49 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
     return bin_edges(float(low), float(high), HISTOGRAM_BINS), counts.astype(np.int64)
 
 
-def measure_map(mesh: Mesh, positions: Floats) -> dict[str, Any]:
+def simplex_measures_of(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
+    """What is measured of each simplex of a map: every registered distortion by id, and `others` by theirs, each (m,)."""
+    from workbench.core.registry import registry
+
+    sigma = SingularValues(signed_singular_values(build_elements(mesh), positions))
+    measures = [*(Measure(id) for id in sorted(registry().distortions)), *others]
+    return {measure.id: measure.prepare(sigma.dimension)(sigma) for measure in measures}
+
+
+def simplex_table(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
+    """Columns of a table of simplices: sigma_1 .. sigma_n (signed), det, each measure, area or volume of the source."""
+    elements = build_elements(mesh)
+    sigma = signed_singular_values(elements, positions)
+    columns = {f"sigma_{i + 1}": sigma[:, i] for i in range(elements.dimension)}
+    columns["det"] = determinants(elements, positions)
+    columns |= simplex_measures_of(mesh, positions, others)
+    return columns | {"area" if elements.dimension == 2 else "volume": elements.rest_measures}
+
+
+def measure_map(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Any]:
     """Every measure of a map, as DESIGN's `measure --json` gives it.
 
     Parameters
     ----------
     mesh : Mesh                    the source
     positions : (n, d) float64     the map
+    others : Measure ...           measured beside every registered distortion
 
     Returns
     -------
     dict     measures {id: {mean, max, min, p50, p95, area_weighted_mean}} of every registered distortion and of (78),
              inverted, degenerate, min_det, injective {local, global, reason}, histogram78 {edges, counts}
+
+    Raises `WorkbenchError` for one of `others` that is no measure in this dimension.
     """
     from workbench.core.injectivity import global_injectivity, local_injectivity
-    from workbench.core.registry import registry
 
     elements = build_elements(mesh)
     positions = np.ascontiguousarray(positions, dtype=np.float64)
     sigma = signed_singular_values(elements, positions)
     det = determinants(elements, positions)
-    measures = {}
-    for id, distortion in sorted(registry().distortions.items()):
-        measures[id] = statistics(distortion.value(sigma), elements.rest_measures)
+    values = simplex_measures_of(mesh, positions, others)
+    measures = {id: statistics(of_each, elements.rest_measures) for id, of_each in values.items()}
     edges, counts = average_histogram(np.abs(sigma).mean(axis=1))
     local = local_injectivity(mesh, positions)
     whole = global_injectivity(mesh, positions)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -62,7 +64,7 @@ def write_map(
     elif ending == ".vtu":
         _write_vtu(path, source_mesh, positions, columns)
     elif ending == ".csv":
-        write_text(path, _csv_text(source_mesh.simplex_count, columns))
+        write_text(path, simplex_table_text(columns))
     else:
         raise WorkbenchError(
             f"{path}: maps are written as {', '.join(WRITABLE)}; the ending {ending or '(none)'} is not one of them."
@@ -147,8 +149,17 @@ def _write_vtu(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, colu
         meshio.vtu.write(str(part), content)
 
 
-def _csv_text(simplex_count: int, columns: dict[str, Any]) -> str:
-    header = ",".join(["simplex", *columns]) + "\n"
-    table = np.column_stack([np.arange(simplex_count), *columns.values()])
-    row = "%d" + ",%.17g" * len(columns) + "\n"
-    return header + (row * simplex_count) % tuple(table.ravel().tolist())
+def simplex_table_text(columns: Mapping[str, ArrayLike]) -> str:
+    """CSV of numbers a simplex: a row a simplex (from 0), a column for each name -> (m,); infinities are `inf`."""
+    table = {name: np.asarray(values) for name, values in columns.items()}
+    count = len(next(iter(table.values()), ()))
+    stacked = np.column_stack([np.arange(count), *table.values()])
+    row = "%d" + ",%.17g" * len(table) + "\n"
+    return csv_line(["simplex", *table]) + (row * count) % tuple(stacked.ravel().tolist())
+
+
+def csv_line(cells: Iterable[object]) -> str:
+    """One line of CSV; cells with commas or quotes, as formulas have them, are quoted."""
+    line = io.StringIO()
+    csv.writer(line, lineterminator="\n").writerow(cells)
+    return line.getvalue()

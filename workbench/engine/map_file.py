@@ -1,0 +1,52 @@
+"""A source and its map out of one file or two, as they are measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.errors import MeshError
+from workbench.core.fixes import apply_fixes
+from workbench.core.kinds import resolve_kind, source_for_kind
+from workbench.core.mesh import Mesh
+from workbench.engine.starts import adjusted_start
+from workbench.io.opening import SAMPLE, map_from_file, open_source
+from workbench.io.read import read_mesh
+
+
+@dataclass(frozen=True, eq=False)
+class MapFile:
+    """`mesh` is the source, `positions` (n, d) the map; `was_mirrored`: it is the reflection of what the file holds."""
+
+    mesh: Mesh
+    positions: Floats
+    was_mirrored: bool
+
+
+def open_map(
+    source: str,
+    target: str | None = None,
+    *,
+    kind: str = "auto",
+    fixes: tuple[str, ...] = (),
+    tets: bool = False,
+) -> MapFile:
+    """The source, and the map of `target` or else the one that `source` holds itself (vt of an OBJ, X or X0 of a case).
+
+    A map is measured on any mesh, a disc or not; where texture coordinates are the map, their seams are part of it.
+    Raises `WorkbenchError` for files that cannot be used, `MeshError` where there is no map.
+    """
+    is_sample = source.startswith(SAMPLE)
+    file = open_source(source).file if is_sample else read_mesh(source, tets=tets)
+    holds_map = file.map_positions is not None or file.mesh.texture is not None
+    if target is None and not holds_map:
+        raise MeshError(f"{source} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does.")
+    fixes = fixes or ("unreferenced", *(("seams",) if target is None else ()))
+    fixed = apply_fixes(file.mesh, fixes).mesh
+    found = resolve_kind(fixed, kind)
+    mesh = source_for_kind(fixed, found)
+    positions = map_from_file(target or source, mesh, found)
+    adjusted = adjusted_start(mesh, found, positions, match_area=False)
+    return MapFile(mesh, adjusted, not np.array_equal(adjusted, positions))
