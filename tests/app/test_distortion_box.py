@@ -22,7 +22,7 @@ from workbench.core.distortion import Distortion
 from workbench.core.formula_names import suggested_parameter, undeclared_names
 from workbench.core.method import Parameter
 from workbench.core.registry import registry
-from workbench.engine.messages import SetProblem
+from workbench.engine.messages import Refused, SetProblem
 
 BLEND = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
 
@@ -214,6 +214,26 @@ def test_own_formulas_are_saved_listed_renamed_and_deleted(window: MainWindow, b
     assert not registry().own_formulas and box.combo.findData("best-blend") < 0
 
 
+def test_what_the_engine_refuses_stays_in_the_editor_and_the_session_is_the_engines(
+    window: MainWindow, box: DistortionBox, qtbot: QtBot
+) -> None:
+    type_formula(box, BLEND)
+    type_formula(box, "log(3 - sigma1) + sum(sigma^2)")
+    worker, kept = window.bridge._worker, SetProblem(BLEND, {"lam": 0.5})
+    newest = sent(window)[-1].serial
+    worker._tell(Refused(window.document.generation, "SetProblem", "An old one.", kept=kept, serial=newest - 1))
+    QTest.qWait(50)
+    assert window.document.session.distortion.startswith("log"), "a newer choice is on its way"
+    worker._tell(Refused(window.document.generation, "SetProblem", "Not on this map.", kept=kept, serial=newest))
+    qtbot.waitUntil(lambda: window.document.session.distortion == BLEND)
+    assert window.document.session.distortion_parameters == {"lam": 0.5}
+    assert box.edit.text == "log(3 - sigma1) + sum(sigma^2)"
+    assert box.error.text() == "Not on this map." and list(box.form.rows) == ["lam"]
+    QTest.keyClick(box.edit, Qt.Key.Key_Escape)
+    assert box.edit.text == BLEND
+    window.error_bar.dismiss()
+
+
 def test_help_has_examples_that_are_formulas(window: MainWindow, box: DistortionBox) -> None:
     for text, _ in EXAMPLES:
         new = undeclared_names(text)
@@ -273,7 +293,8 @@ def test_a_number_is_taken_as_typed(qtbot: QtBot, typed: str, value: float) -> N
     assert caught.args == [pytest.approx(value, rel=1e-9), True]
 
 
-def test_the_newest_value_goes_out_when_the_last_one_is_answered(qtbot: QtBot) -> None:
+def test_the_newest_value_goes_out_when_the_last_one_is_answered(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("workbench.app.panels.value_pacer.LONGEST_WAIT", 0.3)
     taken: list[dict] = []
     pacer = ValuePacer(taken.append)
     for number in range(20):
@@ -288,4 +309,4 @@ def test_the_newest_value_goes_out_when_the_last_one_is_answered(qtbot: QtBot) -
     pacer.offer({"t": 21}, True)
     assert taken[-1] == {"t": 21}, "a hand that rests is answered at once"
     pacer.offer({"t": 22}, False)
-    qtbot.waitUntil(lambda: taken[-1] == {"t": 22}, timeout=2000)
+    qtbot.waitUntil(lambda: taken[-1] == {"t": 22}, timeout=3000)

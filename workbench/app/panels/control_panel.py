@@ -26,6 +26,7 @@ from workbench.app.document import Document
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
 from workbench.core.registry import Registry
+from workbench.engine.messages import Refused
 
 KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane"}
 DEFAULT_START = {"plane": "rest", "parameterize": "tutte", "volume": "rest"}
@@ -67,6 +68,7 @@ class ControlPanel(QScrollArea):
         self.setMinimumWidth(284)
         document.session_changed.connect(self.show_session)
         document.opened.connect(self.show_choices)
+        document.refused.connect(self._show_refusal)
         self.show_session()
 
     # ------------------------------------------------------------------------------------------ making
@@ -157,6 +159,10 @@ class ControlPanel(QScrollArea):
         start = session.initializer or DEFAULT_START.get(found or "plane", "rest")
         self.start.show_choice(start, session.initializer_parameters)
         self.file_button.setVisible(start == "file")
+
+    def _show_refusal(self, report: Refused) -> None:
+        if report.command == "SetProblem":
+            self.distortion.show_refusal(report.sentence)
 
     # ------------------------------------------------------------------------------------------ start
 

@@ -47,6 +47,7 @@ class DistortionBox(QWidget):
         self._shown = ""
         self._last_seen: dict[str, Parameter] = {}
         self._shown_choice: tuple[Any, ...] = ()
+        self._accepted = ""
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(PAUSE)
@@ -265,8 +266,16 @@ class DistortionBox(QWidget):
             return
         self.tools.remember(text)
         values = {name.name: item.parameter_values[name.name] for name in new}
+        self._accepted = text
         self._shown = text  # from now on it is no longer an edit of the one before
         self.chosen.emit(text, values)
+
+    def show_refusal(self, sentence: str) -> None:
+        """The engine refused what was chosen last: a typed formula stays in the editor, to be mended."""
+        if self._accepted and self._accepted != self._current:
+            self.edit.set_text(self._accepted)
+        self._accepted = ""
+        self._say_error(sentence)
 
     def _send_values(self, values: dict[str, Any]) -> None:
         item = self._known.get(self._current)

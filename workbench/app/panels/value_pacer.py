@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer
 
 LEAST_PAUSE = 0.033
 """Seconds between two values."""
-LONGEST_WAIT = 0.4
+LONGEST_WAIT = 3.0
 """Seconds after which the next value goes out though no map has come since the last one."""
 
 

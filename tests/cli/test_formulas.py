@@ -1,0 +1,67 @@
+"""Typed and named formulas on the command line: names that are not declared, formulas of the user's own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from workbench.core.method import Parameter
+from workbench.core.named_formulas import NamedFormula
+from workbench.io.formula_store import save_formula
+
+BLEND = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
+
+
+@pytest.fixture
+def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The id of a formula that is kept in a home of the test's own."""
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path / "data"))
+    return save_formula(NamedFormula("My blend", BLEND, (Parameter("lam", float, 0.25, "", 0.0, 1.0),), "tried on faces"))
+
+
+@pytest.mark.parametrize("command", [["check"], ["solve", "SQUARE", "--out", "OUT.obj", "--distortion"]], ids=lambda c: c[0])
+@pytest.mark.parametrize(
+    ("formula", "said"),
+    [
+        (BLEND, ["'lam'", "--set lam="]),
+        ("sum(sigma^p) + weight*det", ["'p'", "--set p="]),
+        ("sum(sgima^2)", ["'sgima'", "sigma is", "character 5"]),
+        ("symetric_dirichlet + det", ["symmetric_dirichlet is"]),
+    ],
+)
+def test_names_that_are_not_declared_are_answered_with_the_way_out(
+    command, formula, said, cli, square_file, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    result = cli(*[str(square_file) if item == "SQUARE" else item for item in command], formula)
+    assert result.status == 2 and len(result.err.strip().splitlines()) == 1
+    assert all(word in result.err for word in said)
+    assert not (tmp_path / "OUT.obj").exists()
+
+
+def test_what_it_says_helps(cli):
+    assert cli("check", BLEND, "--set", "lam=0.5").status == 0
+    assert cli("check", "alpha*amips", "--set", "alpha=0.5").status == 0
+    assert cli("check", "alpha*amips").status == 0, "a parameter of a distortion that it refers to has its default"
+
+
+def test_own_formulas_are_listed_checked_and_solved_by_name(own, cli, square_file, tmp_path):
+    (entry,) = [item for item in cli("list", "distortions", "--json").json if item["id"] == own]
+    assert entry["label"] == "My blend" and entry["formula"] == BLEND and entry["description"] == "tried on faces"
+    assert entry["parameters"][0]["default"] == 0.25
+    assert own in cli("list", "distortions").out
+    for text in (own, f"2*{own.replace('-', '_')} + det"):
+        assert cli("check", text, "--set", "lam=0.5").status == 0
+    assert "outside" in cli("check", own, "--set", "lam=2").err
+    out = tmp_path / "out.obj"
+    assert cli("solve", square_file, "--distortion", own, "--out", out, "--iterations", "2", "--quiet").status == 0
+    assert out.exists()
+
+
+def test_a_damaged_list_of_formulas_stops_nothing(own, cli, tmp_path):
+    path = tmp_path / "data" / "distortion-workbench" / "formulas.json"
+    path.write_text("{", encoding="utf-8")
+    assert cli("check", "sum(sigma^2)").status == 0
+    assert cli("check", own).status == 2
+    assert any(str(path) in (item.get("path") or "") for item in cli("list", "plugins", "--json").json)
