@@ -137,13 +137,10 @@ def _write(prepared: Prepared, options: argparse.Namespace, result: RunResult, f
 
 def _fields(prepared: Prepared, result: RunResult) -> dict[str, Any]:
     """Every registered distortion on each simplex of the last map, and its determinant."""
-    from workbench.core.jacobians import determinants, signed_singular_values
-    from workbench.core.registry import registry
+    from workbench.core.measure import Measure
+    from workbench.core.quality import simplex_measures_of
 
-    elements = prepared.problem.elements
-    sigma = signed_singular_values(elements, result.state.positions)
-    measures = {id: distortion.value(sigma) for id, distortion in registry().distortions.items()}
-    return {**measures, "det": determinants(elements, result.state.positions)}
+    return dict(simplex_measures_of(prepared.problem.mesh, result.state.positions, (Measure("det"),)))
 
 
 def _summary(report: dict[str, Any], out: str) -> str:
