@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +15,7 @@ from workbench.app.main_window import MainWindow
 from workbench.app.refine_dialog import RefineDialog
 from workbench.app.refine_work import CurveRequest, draw_curves
 from workbench.core.mesh import Mesh
-from workbench.core.refine import refine
+from workbench.core.refine import Refined, refine
 from workbench.engine.messages import Load
 
 
@@ -124,11 +126,21 @@ def test_curves_are_shown_and_saved(dialog: RefineDialog, window: MainWindow, qt
     assert ".svg" in dialog.error.text()
 
 
-def test_a_dialog_closed_while_it_measures_is_forgotten(dialog: RefineDialog, window: MainWindow, qtbot: QtBot) -> None:
+def test_closing_the_dialog_ends_the_measuring(
+    dialog: RefineDialog, window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def endless(mesh: Mesh, positions: np.ndarray, *_: object) -> Iterator[Refined]:
+        while True:
+            time.sleep(0.01)
+            yield Refined(mesh, positions, "linear", 0)
+
+    monkeypatch.setattr("workbench.core.refine.level_measures.refined_levels", endless)
     dialog.measure.click()
+    QTest.qWait(200)
+    assert window.commands.refining._works
     dialog.close()
     assert window.commands.refining.dialog is None
-    qtbot.waitUntil(lambda: not window.commands.refining._works, timeout=60000)
+    qtbot.waitUntil(lambda: not window.commands.refining._works, timeout=10000)
     assert not window.error_bar.isVisible()
 
 

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from workbench.app.refine_work import CurvePicture, free_name, schemes_of
+from workbench.app.refine_work import MOST_MEASURED, CurvePicture, free_name, schemes_of
 from workbench.app.reporter import counted
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
@@ -34,6 +34,10 @@ SCHEME_TEXTS = {
     "catmull-clark": "Catmull-Clark: quadrilaterals, smoothed, split at the end",
 }
 SLOW_TO_DRAW = 1_000_000
+CURVES_HINT = (
+    "Each scheme is applied to the map as it is now, and nothing is kept.\n"
+    f"A curve ends before a level of more than {counted(MOST_MEASURED)} simplices."
+)
 FIGURE_FILTERS = "PDF (*.pdf);;SVG (*.svg);;PNG (*.png)"
 
 
@@ -105,7 +109,7 @@ class RefineDialog(QDialog):
 
     def _make_curves(self) -> None:
         self._group = QGroupBox("Distortion against level", self)
-        self.picture = QLabel("Each scheme is applied to the map as it is now; nothing is kept.", self._group)
+        self.picture = QLabel(CURVES_HINT, self._group)
         self.picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.picture.setMinimumSize(640, 120)
         self.curve_levels = QSpinBox(self._group)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from workbench.core.distortion import Distortion
 
-MOST_MEASURED = 4_000_000
+MOST_MEASURED = 1_000_000
 """Simplices of one level beyond which a curve ends: the next level would take minutes."""
 
 PICTURE_DPI = 80
@@ -94,15 +94,20 @@ def schemes_of(mesh: Mesh) -> tuple[str, ...]:
     return tuple(SCHEMES) if mesh.dimension == 2 else ("linear",)
 
 
-def draw_curves(request: CurveRequest) -> CurvePicture:
-    """Mean distortion against level, for every scheme that the mesh allows. Raises `WorkbenchError`."""
+def draw_curves(request: CurveRequest, interrupt: Callable[[], bool] = lambda: False) -> CurvePicture:
+    """Mean distortion against level, for every scheme that the mesh allows.
+
+    Raises `WorkbenchError`, also once `interrupt` says that nobody waits any longer.
+    """
     from workbench.figures.level_curves import level_curves
 
     distortions = _distortions(request)
     curves = {}
     for scheme in schemes_of(request.mesh):
         levels = max(k for k in range(request.levels + 1) if k == 0 or refined_count(request.mesh, scheme, k) <= MOST_MEASURED)
-        curves[scheme] = measure_levels(request.mesh, request.positions, scheme, levels, distortions)
+        curves[scheme] = measure_levels(request.mesh, request.positions, scheme, levels, distortions, interrupt)
+        if interrupt():
+            raise WorkbenchError("The curves are no longer wanted.")
     figure = level_curves(curves, request.title)
     stream = BytesIO()
     figure.savefig(stream, format="png", dpi=PICTURE_DPI * request.pixel_ratio)

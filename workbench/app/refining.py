@@ -108,7 +108,7 @@ class Refining(QObject):
                 is_ours = isinstance(error, WorkbenchError)
                 dialog.show_no_curves(error.sentence if is_ours else f"{type(error).__name__}: {error}")
 
-        self._start(lambda: draw_curves(request), done, fail)
+        self._start(lambda: draw_curves(request, lambda: self.dialog is not dialog), done, fail)
 
     def _save_figure(self, path: str) -> None:
         from workbench.figures.save import save_figure

@@ -14,6 +14,7 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements, signed_singular_values
 from workbench.core.mesh import Mesh
 from workbench.core.refine.refined import Refined, refined_levels
+from workbench.core.solver import Interrupt, never
 
 FIGURE_20 = ("mips", "condition-number", "arap")
 """Distortions that Fig. 20 shows: (26), (29), (33)."""
@@ -31,13 +32,19 @@ class LevelMeasures:
 
 
 def measure_levels(
-    mesh: Mesh, positions: ArrayLike | None, scheme: str, levels: int, distortions: Sequence[Distortion]
+    mesh: Mesh,
+    positions: ArrayLike | None,
+    scheme: str,
+    levels: int,
+    distortions: Sequence[Distortion],
+    interrupt: Interrupt = never,
 ) -> tuple[LevelMeasures, ...]:
     """Measures of the map as it is and after each level of refinement.
 
     Parameters
     ----------
     positions : (n, d) float64     d is the dimension of the simplices; None: the texture coordinates of `mesh`
+    interrupt : () -> bool         asked before each level; once it says so, the levels so far are returned
 
     A parameterization that is mirrored as a whole is measured as its reflection.
     Raises `WorkbenchError` as `refine` does, and `MeshError` for a source with simplices of no area or volume.
@@ -49,6 +56,8 @@ def measure_levels(
     rows: list[LevelMeasures] = []
     is_mirrored = False
     for refined in refined_levels(mesh, positions, scheme, levels):
+        if interrupt():
+            break
         source, target = _source_and_target(refined)
         elements = build_elements(source)
         sigma = signed_singular_values(elements, target)
