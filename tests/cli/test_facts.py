@@ -50,6 +50,32 @@ def test_check_takes_parameters(cli):
     assert facts["value_at_ones"] == pytest.approx(2 ** (1 / 3)) and facts["parameters"] == {"p": 3}
 
 
+PROPERTIES = ("normalised", "symmetric", "bottom_barrier", "top_barrier", "smooth_almost_everywhere", "regular", "convex")
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("text", ["mips", "volume", "lp-gauge", "arap-barrier", "sqrt(5 - sigma1) + det", "1/(3 - sigma1)^2"])
+def test_check_answers_every_property(text, dim, cli):
+    facts = cli("check", text, "--dim", dim, "--json").json
+    assert facts["dim"] == dim and facts["formula"]
+    for name in PROPERTIES:
+        found = facts[name]
+        assert {"holds", "witness", "method", "sentence", "value"} == found.keys()
+        assert found["holds"] in (True, False, None) and found["sentence"]
+        assert (found["witness"] is not None) == (found["holds"] is False)
+    said = cli("check", text, "--dim", dim).out
+    assert all(name.replace("_", " ") in said and facts[name]["sentence"] in said for name in PROPERTIES)
+
+
+def test_check_knows_the_parameters(cli):
+    """(sum sigma^p)^(1/p) is a norm from p = 1 on, and not below."""
+    formula = "sum(sigma^p)^(1/p)"
+    assert cli("check", formula, "--set", "p=1.5", "--json").json["convex"]["holds"] is True
+    assert cli("check", formula, "--set", "p=0.8", "--json").json["convex"]["holds"] is False
+    assert cli("check", "mips", "--json").json["symmetric"]["holds"] is True
+    assert cli("check", "mips", "--dim", 3, "--json").json["regular"]["holds"] is False
+
+
 def test_check_marks_the_place(cli):
     refused = cli("check", "sum(sigma^2) + wrong")
     assert refused.status == 2 and "wrong" in refused.err and "character 16" in refused.err

@@ -31,7 +31,7 @@ def analyse(distortion: Distortion, dimension: int) -> Analysis:
             "symmetric": symmetry(density),
             "bottom_barrier": bottom_barrier(density),
             "top_barrier": top_barrier(density),
-            "smooth_almost_everywhere": smoothness(density),
+            "smooth_almost_everywhere": smoothness(density, distortion.compiled(dimension).is_kinked_at_ties),
         }
         convex = convexity(density, distortion.has_barrier(dimension))
     return Analysis(

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.core.analysis.density import Density, descending
+from workbench.core.analysis.density import Density, descending, margin
 from workbench.core.arrays import Floats
 
 READABLE = {
@@ -81,13 +81,18 @@ def _first(
 ) -> tuple[Chord | None, int, Floats]:
     """(the first or the plainest violating chord or None, how many there are, how near each is to a violation)."""
     middles = _middles(starts, ends, weights)
-    (a, ea), (m, em), (b, eb) = (density.with_rounding(descending(np.abs(q))) for q in (starts, middles, ends))
+    a, m, b = (density.signed(q) for q in (starts, middles, ends))
     with np.errstate(all="ignore"):
-        scale = np.abs(a) + np.abs(m) + np.abs(b)
         excess = m - (1.0 - weights) * a - weights * b
-        nearness = np.nan_to_num(excess / scale, nan=-np.inf, posinf=-np.inf, neginf=-np.inf)
-        violates = (excess > 16.0 * (ea + em + eb) + 1e-12 * scale) & np.isfinite(scale)
-    violates &= np.minimum(np.abs(middles), np.minimum(np.abs(starts), np.abs(ends))).min(axis=1, initial=np.inf) > 0.0
+        nearness = np.nan_to_num(excess / (np.abs(a) + np.abs(m) + np.abs(b)), nan=-np.inf, posinf=-np.inf, neginf=-np.inf)
+    singular = np.minimum(np.abs(middles), np.minimum(np.abs(starts), np.abs(ends))).min(axis=1, initial=np.inf) == 0.0
+    nearness[singular] = -np.inf
+    suspects = np.argsort(-nearness, kind="stable")[:BEST]
+    suspects = np.sort(suspects[nearness[suspects] > 0.0])
+    ends_and_middles = np.concatenate([q[suspects] for q in (starts, middles, ends)])
+    rounding = margin(*density.with_rounding(descending(np.abs(ends_and_middles)))).reshape(3, -1).sum(axis=0)
+    violates = np.zeros(len(starts), dtype=bool)
+    violates[suspects] = excess[suspects] > rounding
     which = np.flatnonzero(violates)
     if not len(which):
         return None, len(starts), nearness

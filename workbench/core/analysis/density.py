@@ -12,9 +12,12 @@ from workbench.core.distortion import Distortion
 from workbench.core.expression import Graph, Op
 from workbench.core.tape import Tape, compile_tape
 
-MAXIMUM_NUMBERS = 1_000_000
-"""Values of nodes that are kept at a time."""
 UNIT = float(np.finfo(np.float64).eps)
+ARRAY_OPERATIONS = {
+    Op.ADD: np.add, Op.SUBTRACT: np.subtract, Op.MULTIPLY: np.multiply, Op.DIVIDE: np.divide, Op.POWER: np.power,
+    Op.SQRT: np.sqrt, Op.EXP: np.exp, Op.LOG: np.log, Op.ABS: np.abs, Op.MAXIMUM: np.maximum, Op.MINIMUM: np.minimum,
+}  # fmt: skip
+"""What a formula is made of; the other operations appear in derivatives only."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +33,9 @@ class Density:
     @staticmethod
     def of(distortion: Distortion, dimension: int) -> Density:
         """The formula of `distortion` on simplices that were not inverted at the start. Raises `FormulaError`."""
-        compiled = replace(distortion, formula_on_inverted="").compiled(dimension)
+        if distortion.formula_on_inverted:
+            distortion = replace(distortion, formula_on_inverted="")
+        compiled = distortion.compiled(dimension)
         return Density(compiled.graph, compiled.root)
 
     @property
@@ -46,10 +51,6 @@ class Density:
     def _value_tape(self) -> Tape:
         return compile_tape(self.graph, [self.root])
 
-    @cached_property
-    def _node_tape(self) -> Tape:
-        return compile_tape(self.graph, self.order)
-
     def __call__(self, sigma: Floats) -> Floats:
         """(m, n) descending -> (m,)."""
         return self._value_tape.evaluate(np.atleast_2d(sigma))[:, 0]
@@ -60,16 +61,24 @@ class Density:
 
     def nodes(self, sigma: Floats) -> dict[int, Floats]:
         """Values of every node in `order`, each (m,)."""
-        table = self._node_tape.evaluate(np.atleast_2d(sigma))
-        return {node: table[:, column] for column, node in enumerate(self.order)}
+        sigma = np.atleast_2d(sigma)
+        values: dict[int, Floats] = {}
+        with np.errstate(all="ignore"):
+            for node in self.order:
+                op, value, arguments = self.graph.nodes[node]
+                if op is Op.CONSTANT:
+                    values[node] = np.full(len(sigma), value)
+                elif op is Op.VARIABLE:
+                    values[node] = sigma[:, int(value)]
+                else:
+                    values[node] = ARRAY_OPERATIONS[op](*(values[a] for a in arguments))
+        return values
 
     def with_rounding(self, sigma: Floats) -> tuple[Floats, Floats]:
-        """Values and a bound of their rounding errors, both (m,), by running error analysis along the expression."""
-        sigma = np.atleast_2d(sigma)
-        rows = max(128, MAXIMUM_NUMBERS // len(self.order))
-        if len(sigma) > rows:
-            parts = [self.with_rounding(sigma[start : start + rows]) for start in range(0, len(sigma), rows)]
-            return np.concatenate([v for v, _ in parts]), np.concatenate([e for _, e in parts])
+        """Values and a bound of their rounding errors, both (m,), by running error analysis along the expression.
+
+        Dear: ask for the few points that matter.
+        """
         values = self.nodes(sigma)
         errors: dict[int, Floats] = {}
         with np.errstate(all="ignore"):
@@ -102,6 +111,12 @@ def _inherited(op: Op, v: list[Floats], e: list[Floats], out: Floats) -> Floats:
     if op is Op.ABS:
         return e[0]
     return np.maximum(e[-1], e[-2])
+
+
+def margin(value: Floats, error: Floats) -> Floats:
+    """What rounding may account for, generously."""
+    result: Floats = 16.0 * error + 1e-12 * np.abs(value)
+    return result
 
 
 def descending(sigma: Floats) -> Floats:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.core.analysis.density import Density, descending, spread
+from workbench.core.analysis.density import Density, descending, margin, spread
 from workbench.core.analysis.log_convexity import is_proved_log_convex
 from workbench.core.analysis.normal_form import NormalForms
 from workbench.core.analysis.properties import Property, point_text
@@ -19,19 +19,18 @@ SURVIVORS = 24
 def normalisation(density: Density) -> Property:
     """Whether D(1, ..., 1) is the minimum: a search from many starts for a point with a smaller value."""
     n = density.dimension
-    at_ones, ones_error = (float(part[0]) for part in density.with_rounding(np.ones((1, n))))
+    ones = np.ones((1, n))
+    at_ones = float(density(ones)[0])
     candidates = _candidates(n)
-    values, errors = density.with_rounding(candidates)
-    margin = _margin(errors, values) + _margin(ones_error, at_ones)
-    if (np.isfinite(values) & (np.abs(values - at_ones) <= margin)).all():
-        return Property(None, "", "D varies by no more than rounding: nothing can be said of its minimum.", value=at_ones)
-    found = np.flatnonzero(np.isfinite(values) & (values < at_ones - margin))
-    if len(found):
-        return _violation(density, candidates[found[0]], at_ones)
+    values = density(candidates)
     best = _descend(density, candidates, values)
-    value, error = (float(part[0]) for part in density.with_rounding(best[None]))
-    if value < at_ones - _margin(error, value) - _margin(ones_error, at_ones):
-        return _violation(density, best, at_ones)
+    suspects = np.concatenate([candidates[values < at_ones][:SURVIVORS], best[None]])
+    found, tolerance = density(suspects), margin(*density.with_rounding(suspects)) + margin(*density.with_rounding(ones))
+    lower = np.flatnonzero(found < at_ones - tolerance)
+    if len(lower):
+        return _violation(density, suspects[lower[0]], at_ones)
+    if np.isfinite(values).all() and np.ptp(values) <= 2.0 * tolerance.max():
+        return Property(None, "", "D varies by no more than rounding: nothing can be said of its minimum.", value=at_ones)
     proof = _proof(density, at_ones)
     if proof:
         return Property(True, "both", f"D(1, ..., 1) = {at_ones:.6g} is the minimum: {proof}.", value=at_ones)
@@ -46,10 +45,6 @@ def _proof(density: Density, at_ones: float) -> str:
     if is_proved_log_convex(density):
         return "D is convex in log sigma, and rises from there in every direction that was tried"
     return ""
-
-
-def _margin(error: Floats | float, value: Floats | float) -> Floats | float:
-    return 16.0 * error + 1e-12 * np.abs(value)
 
 
 def _violation(density: Density, sigma: Floats, at_ones: float) -> Property:

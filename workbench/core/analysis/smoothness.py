@@ -17,12 +17,16 @@ DISTANCES = np.array([1e-4, 1e-6, 1e-8])
 """How near a place is looked at from both sides, in log sigma."""
 
 
-def smoothness(density: Density) -> Property:
+def smoothness(density: Density, kinked_at_ties: bool) -> Property:
     """Whether D is weakly differentiable.
 
     It is not where it is undefined or infinite on an open set, nor where it jumps or has a pole inside the cone; kinks of max,
     min and abs and at equal singular values do no harm. Holes are sought at sample points, jumps and poles where some part of
     the formula changes its sign between two of them.
+
+    Parameters
+    ----------
+    kinked_at_ties : bool     whether D has kinks, as a function of the map, at equal singular values
     """
     points = spread(np.random.default_rng(15), 300, density.dimension, (0.3, 1.0, 3.0, 6.0))
     nodes = density.nodes(points)
@@ -35,7 +39,7 @@ def smoothness(density: Density) -> Property:
     if found is not None:
         what = "has a pole" if found.pop("is_pole") else "jumps"
         return Property(False, "numeric", f"D {what} at sigma = {point_text(found['sigma'])}.", found)
-    return Property(True, "both", _kinks(density, nodes))
+    return Property(True, "both", _kinks(density, nodes, kinked_at_ties))
 
 
 def _hole(density: Density, nodes: dict[int, Floats]) -> Booleans:
@@ -101,7 +105,7 @@ def _discontinuity(density: Density, places: Floats, directions: Floats) -> dict
     return {"sigma": np.exp(places[k]).tolist(), "sides": sides, "values": values, "is_pole": bool(poles[k])}
 
 
-def _kinks(density: Density, nodes: dict[int, Floats]) -> str:
+def _kinks(density: Density, nodes: dict[int, Floats], at_ties: bool) -> str:
     used = set()
     for node in density.order:
         op, _, arguments = density.graph.nodes[node]
@@ -109,20 +113,6 @@ def _kinks(density: Density, nodes: dict[int, Floats]) -> str:
             gap = nodes[arguments[0]] - (nodes[arguments[1]] if len(arguments) > 1 else 0.0)
             if (gap > 0.0).any() and (gap < 0.0).any():
                 used.add(SWITCHES[op])
-    at_ties = _differs_at_ties(density)
     places = [f"where {' and '.join(sorted(used))} switch{'' if len(used) > 1 else 'es'}"] if used else []
     places += ["at equal singular values"] if at_ties else []
     return f"Analytic but for kinks {' and '.join(places)}." if places else "Analytic wherever no simplex collapses."
-
-
-def _differs_at_ties(density: Density) -> bool:
-    """Whether D_i and D_j differ where sigma_i = sigma_j, so that D has a kink there as a function of the map."""
-    graph, n = density.graph, density.dimension
-    first = [Density(graph, graph.derivative(density.root, i)) for i in range(n)]
-    for i in range(n - 1):
-        tied = np.array([[1.7] * n, [0.6] * n, *([[1.9, 1.3, 0.7][:n]] * 2)])
-        tied[:, i + 1] = tied[:, i]
-        a, b = (first[k].with_rounding(-np.sort(-tied, axis=1)) for k in (i, i + 1))
-        if (np.abs(a[0] - b[0]) > 16.0 * (a[1] + b[1])).any():
-            return True
-    return False
