@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.conftest import grid, tetrahedral_grid
+from tests.solvers.test_laws import problem_of
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.jacobians import determinants
@@ -28,6 +29,17 @@ def newton(
     result = run(solver, problem, start, tolerance=tolerance, on_state=lambda state: energies.append(state.energy))
     assert all(after <= before for before, after in pairwise(energies)), "the energy rose"
     return result, energies
+
+
+@pytest.mark.parametrize("anchors", ["none", "held"])
+@pytest.mark.parametrize("kind", ["plane", "parameterize", "volume"])
+@pytest.mark.parametrize("id", sorted(registry().distortions))
+def test_every_distortion_is_minimised(id: str, kind: str, anchors: str) -> None:
+    problem, start = problem_of(kind, anchors, id)
+    result, energies = newton(problem, start)
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    assert energies[-1] < energies[0]
 
 
 @pytest.fixture(scope="module")
