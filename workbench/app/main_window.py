@@ -211,9 +211,13 @@ class MainWindow(QMainWindow):
 
     def _methods_found(self, registry: Any) -> None:
         self.panel.set_registry(registry)
+        self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_methods(_find_methods()))
+        self._list_methods(registry)
+        self.reporter.show_plugin_failures(registry)
+
+    def _list_methods(self, registry: Any) -> None:
         self.quantities.list_distortions(registry.distortions.values())
         self.inspector.set_registry(registry)
-        self.reporter.show_plugin_failures(registry)
 
     def _apply_theme(self, theme: Theme) -> None:
         self.setStyleSheet(style_sheet(theme))

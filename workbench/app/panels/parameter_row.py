@@ -75,7 +75,7 @@ class ParameterRow(QWidget):
     def set_label_width(self, width: int) -> None:
         """Of so many pixels; a longer name is cut, and whole in the tool tip."""
         self.label.setFixedWidth(width)
-        self.label.setText(self.label.fontMetrics().elidedText(self.name, Qt.TextElideMode.ElideMiddle, width))
+        self.label.setText(self.label.fontMetrics().elidedText(self.name, Qt.TextElideMode.ElideRight, width))
 
     @property
     def name(self) -> str:
