@@ -27,9 +27,9 @@ class AcceleratedQuadraticProxy(DescentSolver):
     """AQP: descent in the metric of the source's Laplacian, begun at y = x_i + theta (x_i - x_(i-1)).
 
     theta = (1 - sqrt(1/eta)) / (1 + sqrt(1/eta)), shortened to half of the largest step without inversion, as is the step
-    from y: the paper's. Beside it: where the energy would rise above that of x_i, the step is taken from x_i instead and
-    the momentum starts anew; Armijo's factor is 1e-4, not 0.2; steps may be longer than 1, as other distortions than the
-    paper's are softer than the Laplacian, and a trial begins at `growth` times the step before.
+    from y, which must keep a fifth of the promised decrease: the paper's. Beside it: where the energy would rise above that
+    of x_i, the step is taken from x_i instead and the momentum starts anew; a trial begins at `growth` times the step before,
+    where the published code begins far longer but never above 1, which would bind distortions softer than the Laplacian.
     """
 
     id = "aqp"
@@ -40,7 +40,8 @@ class AcceleratedQuadraticProxy(DescentSolver):
     accelerate: bool = parameter(True, "extrapolate before each step; off: Sobolev gradient descent")
     eta: float = parameter(100.0, "bound on the condition number in the metric, sets theta", minimum=1.0, maximum=1e8)
     limit: float = parameter(0.5, "part of the largest step without inversion that is taken", minimum=0.05, maximum=0.99)
-    growth: float = parameter(2.0, "factor on the last accepted step for the next first trial", minimum=1.0, maximum=100.0)
+    sufficient: float = parameter(0.2, "part of the promised decrease that a step must reach", minimum=0.0, maximum=0.5)
+    growth: float = parameter(1.5, "factor on the last accepted step for the next first trial", minimum=1.0, maximum=100.0)
 
     @property
     def theta(self) -> float:
@@ -62,4 +63,7 @@ class AcceleratedQuadraticProxy(DescentSolver):
     def _descend(self, problem: Problem, state: State, evaluation: Evaluation, interrupt: Interrupt) -> State:
         direction = direction_in_laplacian(problem, evaluation.gradient)
         first = grown_step(state, self.growth)
-        return descend(problem, state, evaluation, direction, interrupt, first=first, furthest=0.0, safety=self.limit)
+        return descend(
+            problem, state, evaluation, direction, interrupt,
+            first=first, furthest=0.0, safety=self.limit, sufficient=self.sufficient,
+        )  # fmt: skip

@@ -51,6 +51,7 @@ def descend(
     first: float = 1.0,
     furthest: float = 1.0,
     safety: float = SAFETY,
+    sufficient: float = 1e-4,
 ) -> State:
     """The state after a line search along a descent direction.
 
@@ -59,6 +60,7 @@ def descend(
     evaluation : Evaluation      energy and gradient (and Hessian) at the current map; the next ones have the same order
     direction : (N, d) float64   zero at the hard anchors
     first, furthest : float      first trial, and how far a longer one may go; both below `safety` times the largest step
+    sufficient : float           part of the promised decrease that a trial must reach
 
     Returns a state with NO_DESCENT where no trial lowers the energy, INTERRUPTED with the old positions where asked to stop.
     A direction whose promise is below rounding leaves the map as it is: the map is the minimum.
@@ -76,7 +78,10 @@ def descend(
                 first, limiting = safety * bound, simplex
         search = problem.energy_and_inverted
         most = problem.most_inverted(state.inverted)
-        found = armijo(search, x, direction, energy, slope, first, interrupt, furthest=furthest, most_inverted=most)
+        found = armijo(
+            search, x, direction, energy, slope, first, interrupt,
+            sufficient=sufficient, furthest=furthest, most_inverted=most,
+        )  # fmt: skip
     problem.workspace.counts["trials"] += found.trials
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
