@@ -36,6 +36,7 @@ from workbench.core.metrics import killing_energy, reweighted_laplacian
 from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
 from workbench.core.progressive_reference import progressive_problem
+from workbench.core.progressive_solver import Progress, ProgressiveSolver
 from workbench.core.quasi_newton_solver import QuasiNewtonSolver
 from workbench.core.refine import Refined, refine
 from workbench.core.run import RunResult, run
@@ -77,6 +78,8 @@ __all__ = [
     "Pair",
     "Parameter",
     "Problem",
+    "Progress",
+    "ProgressiveSolver",
     "QuasiNewtonSolver",
     "Refined",
     "RunResult",

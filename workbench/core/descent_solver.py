@@ -13,6 +13,7 @@ from workbench.core.arrays import Floats
 from workbench.core.descent import derivatives_at, is_finite
 from workbench.core.energy import Evaluation
 from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.newton_system import SHIFTS
 from workbench.core.solver import Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
@@ -52,13 +53,14 @@ class DescentSolver(Solver):
             return replace(state, status=Status.SINGULAR)
 
 
-def direction_in_metric(problem: Problem, values: Floats, gradient: Floats) -> Floats:
+def direction_in_metric(problem: Problem, values: Floats, gradient: Floats, shifts: tuple[float, ...] = SHIFTS) -> Floats:
     """-K^-1 gradient for K given on the pattern: one factorisation, hard anchors eliminated, along A x = const.
 
     Parameters
     ----------
     values : (nnz,) float64       positive semi-definite, soft anchors included
     gradient : (N, d) float64
+    shifts : tuple of float       see `NewtonSystem.factorise`
 
     Returns
     -------
@@ -68,7 +70,7 @@ def direction_in_metric(problem: Problem, values: Floats, gradient: Floats) -> F
     """
     constraints = problem.constraints
     residual = np.zeros(len(constraints.values)) if constraints is not None else None
-    problem.system.factorise(values, problem.anchors.hard_vertices)
+    problem.system.factorise(values, problem.anchors.hard_vertices, shifts)
     direction = problem.system.solve(gradient, None, constraints, residual)
     if not np.isfinite(direction).all():
         raise SingularMatrixError("the direction is not finite")

@@ -133,8 +133,11 @@ class NewtonSystem:
         self._fixed_mask = mask
         self._fixed_entries = np.flatnonzero(mask[pattern.rows] | mask[pattern.columns])
 
-    def factorise(self, values: Floats, fixed: Integers) -> None:
-        """Factorise the Hessian `values` (nnz,) with the vertices `fixed` (k,) eliminated. Raises `SingularMatrixError`."""
+    def factorise(self, values: Floats, fixed: Integers, shifts: tuple[float, ...] = SHIFTS) -> None:
+        """Factorise the Hessian `values` (nnz,), vertices `fixed` (k,) eliminated, its diagonal shifted as little as will do.
+
+        Raises `SingularMatrixError` where none of the relative `shifts` will.
+        """
         begin = time.perf_counter()
         self._values = None
         self._responses.clear()
@@ -143,19 +146,20 @@ class NewtonSystem:
         scale = float(values[diagonal].max(initial=0.0))
         if not np.isfinite(scale) or scale <= 0.0:
             raise SingularMatrixError("the Hessian vanishes or is not finite")
-        for shift in SHIFTS:
+        for shift in shifts:
             matrix = values.copy()
             matrix[diagonal] = np.maximum(matrix[diagonal] * (1.0 + shift), 1e-280 * scale + 1e-300)
             matrix[self._fixed_entries] = 0.0
             matrix[diagonal[self._fixed_coordinates]] = 1.0
+            self.counts["factorise"] += 1
             try:
                 self.solver.factorise(matrix)
                 break
             except SingularMatrixError:
-                if shift == SHIFTS[-1]:
+                if shift == shifts[-1]:
+                    self.seconds["factorise"] += time.perf_counter() - begin
                     raise
         self._values = values
-        self.counts["factorise"] += 1
         self.factorised_at = time.perf_counter()
         self.last_factorisation_seconds = self.factorised_at - begin
         self.seconds["factorise"] += self.last_factorisation_seconds
