@@ -7,9 +7,10 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from workbench.app.main_window import MainWindow
@@ -163,6 +164,32 @@ def test_bounds_of_a_built_in_hold(window: MainWindow, box: DistortionBox) -> No
     row.high.setText("2")
     row.low.editingFinished.emit()
     assert row.range.low == 1e-3 and row.range.high == 2 and row.value == 2.0
+
+
+def test_values_at_which_there_is_no_formula_are_not_sent(window: MainWindow, box: DistortionBox) -> None:
+    type_formula(box, "sum(sigma^2)/(1 - w)")
+    row = box.form.rows["w"]
+    count = len(sent(window))
+    row.slider.setValue(row.range.tick_of(1.0))
+    assert row.value == 1.0 and len(sent(window)) == count
+    assert "finite" in box.error.text()
+    row.slider.setValue(row.range.tick_of(0.25))
+    assert sent(window)[-1].parameters == {"w": 0.25} and not box.error.isVisibleTo(box)
+
+
+def test_the_wheel_scrolls_the_panel_past_the_sliders(window: MainWindow, box: DistortionBox) -> None:
+    type_formula(box, BLEND)
+    row = box.form.rows["lam"]
+    before = row.value
+    for widget in (row.slider, row.number):
+        where = QPointF(5, 5)
+        wheel = QWheelEvent(
+            where, widget.mapToGlobal(where), QPoint(), QPoint(0, 240), Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier, Qt.ScrollPhase.NoScrollPhase, False,
+        )  # fmt: skip
+        QApplication.sendEvent(widget, wheel)
+        assert not wheel.isAccepted()
+    assert row.value == before
 
 
 def test_recent_formulas_come_back(window: MainWindow, box: DistortionBox) -> None:

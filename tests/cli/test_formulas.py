@@ -27,6 +27,7 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
         (BLEND, ["'lam'", "--set lam="]),
         ("sum(sigma^p) + weight*det", ["'p'", "--set p="]),
         ("sum(sgima^2)", ["'sgima'", "sigma is", "character 5"]),
+        ("lambda*arap", ["lambda", "lam instead"]),
         ("symetric_dirichlet + det", ["symmetric_dirichlet is"]),
     ],
 )

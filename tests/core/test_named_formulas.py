@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from workbench.core.distortion import Distortion
 from workbench.core.errors import FormulaError, WorkbenchError
-from workbench.core.formula_names import check_names, suggested_parameter, undeclared_names
+from workbench.core.formula_names import check_names, looks_like_id, suggested_parameter, undeclared_names
 from workbench.core.method import Parameter
 from workbench.core.named_formulas import (
     LARGEST_FILE,
@@ -261,6 +261,21 @@ def test_declared_names_are_no_news() -> None:
         check_names("sum(sigma^p)")
     with pytest.raises(FormulaError, match="cannot be the name"):
         check_names("sum(sigma^__p)")
+
+
+@pytest.mark.parametrize(("text", "word"), [("lambda*arap", "lam "), ("arap + is*det", "is_ "), ("det or 1", "or_ ")])
+def test_words_of_python_are_named_with_a_way_out(text: str, word: str) -> None:
+    with pytest.raises(FormulaError) as caught:
+        undeclared_names(text)
+    assert word in caught.value.sentence
+    assert text[caught.value.position :].startswith(caught.value.sentence.split()[0])
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"), [("magic-wand", True), ("arap", False), ("lam-sigman", False), ("det-a", False), ("a - b", False)]
+)
+def test_ids_are_told_from_differences(text: str, expected: bool) -> None:
+    assert looks_like_id(text) is expected
 
 
 @pytest.mark.parametrize("name", ["lam", "p", "k", "eps", "weight", "anything"])

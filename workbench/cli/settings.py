@@ -30,15 +30,16 @@ def name_and_value(text: str) -> tuple[str, str]:
 def distortion_parameters(text: str) -> tuple[str, ...]:
     """Names that can be set for a distortion: its declared parameters; for a typed formula also its free names."""
     from workbench.core.distortion import Distortion
-    from workbench.core.formula import names_in_formula
+    from workbench.core.formula_names import looks_like_id, undeclared_names
     from workbench.core.registry import registry
 
     known = registry().distortions
     if text in known:
         return tuple(item.name for item in known[text].parameters)
-    borrowed = [item.name for item in Distortion.from_formula(text).parameters]
-    free = [name for name in names_in_formula(text) if name.replace("_", "-") not in known]
-    return tuple(dict.fromkeys([*borrowed, *free]))
+    if looks_like_id(text):
+        return ()  # it is none; resolving it says so
+    free = [item.name for item in undeclared_names(text)]
+    return (*(item.name for item in Distortion.from_formula(text).parameters), *free)
 
 
 def assign(

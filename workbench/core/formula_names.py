@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import keyword
 import math
 import re
 from collections.abc import Iterable, Mapping
@@ -59,6 +60,7 @@ def undeclared_names(text: str, declared: Iterable[str] = ()) -> tuple[Undeclare
     Parameters of a distortion that the formula refers to are declared with it.
     """
     distortions = distortion_names()
+    _check_keywords(text)
     used = names_in_formula(text)
     borrowed = {p.name for name in used if name in distortions for p in distortions[name].parameters}
     known = {*distortions, *borrowed, *declared}
@@ -76,13 +78,24 @@ def check_names(text: str, declared: Iterable[str] = ()) -> None:
 
 def looks_like_id(text: str) -> bool:
     """Whether a text means a distortion by its id (words joined by hyphens) rather than a formula."""
-    return re.fullmatch(r"[a-z]+(-[a-z]+)+", text.strip()) is not None
+    words = text.strip().split("-")
+    is_plain = len(words) > 1 and all(word.isascii() and word.isalpha() and word.islower() for word in words)
+    return is_plain and not any(word.startswith("sigma") or word == "det" for word in words)
 
 
 def position_of(text: str, name: str) -> int:
     """Column where a name first stands as a word of its own; 0 where it does not."""
     match = re.search(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])", text)
     return match.start() if match else 0
+
+
+def _check_keywords(text: str) -> None:
+    """Raises `FormulaError` at a word that Python keeps for itself, `lambda` above all, with a name that does."""
+    for match in re.finditer(r"[A-Za-z_]+", text):
+        word = match.group()
+        if keyword.iskeyword(word) and position_of(text, word) == match.start():
+            other = "lam" if word == "lambda" else f"{word}_"
+            raise FormulaError(f"{word} cannot be a name in a formula; write {other} instead.", position=match.start())
 
 
 def _meant(name: str, words: Iterable[str]) -> str:

@@ -281,11 +281,14 @@ class DistortionBox(QWidget):
         item = self._known.get(self._current)
         if item is not None:
             values = {p.name: values[p.name] for p in item.parameters if values[p.name] != p.default}
-        self.tools.show_in_force(*self._in_force(values))
+        try:
+            in_force = Distortion.resolve(self._current, values)
+        except WorkbenchError as error:  # 1/(1 - lam) at lam = 1, say
+            self._say_error(f"Not at these values: {error.sentence}")
+            return
+        self._say()
+        self.tools.show_in_force(in_force, self.form.values, self.form.ranges)
         self.chosen.emit(self._current, values)
-
-    def _in_force(self, values: dict[str, Any]) -> tuple[Distortion, dict[str, float], dict[str, Any]]:
-        return Distortion.resolve(self._current, values), self.form.values, self.form.ranges
 
 
 def _title(item: Distortion) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import QCheckBox, QGridLayout, QHBoxLayout, QLabel, QLineEdit, QSlider, QToolButton, QWidget
 
 from workbench.app.panels.number_box import LARGE, NumberBox
@@ -51,6 +51,9 @@ class ParameterRow(QWidget):
         self.setToolTip(_tip(parameter, is_bound))
         self._apply_range()
         self.show_value(value)
+        for widget in (self.slider, self.number):
+            widget.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            widget.installEventFilter(self)
         self.slider.valueChanged.connect(self._slid)
         self.slider.sliderReleased.connect(lambda: self.moved.emit(self.value, True))
         self.number.valueChanged.connect(self._typed)
@@ -101,6 +104,13 @@ class ParameterRow(QWidget):
         self.number.setValue(value)
         for widget in (self.slider, self.number):
             widget.blockSignals(False)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """A wheel that scrolls the panel changes no value on its way."""
+        if event.type() == QEvent.Type.Wheel and isinstance(watched, QWidget) and not watched.hasFocus():
+            event.ignore()
+            return True
+        return False
 
     # ------------------------------------------------------------------------------------------
 
