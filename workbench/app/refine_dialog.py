@@ -99,6 +99,7 @@ class RefineDialog(QDialog):
         self.error.hide()
         self.buttons = QDialogButtonBox(self)
         self.accept_button = self.buttons.addButton("Refine and open", QDialogButtonBox.ButtonRole.AcceptRole)
+        self.accept_button.setDefault(True)
         self.accept_button.setToolTip("Writes the refined source, its map and the anchors, and opens that file")
         self.buttons.addButton(QDialogButtonBox.StandardButton.Cancel)
         self.buttons.accepted.connect(self._accept)
