@@ -146,7 +146,7 @@ CONVEX = [
 ]  # fmt: skip
 NOT_CONVEX = [
     "min(sigma)", "sigma1 - sigma2", "sigma1 + 2*sigma2", "sum(sigma^0.5)", "sum(sqrt(sigma))^2", "sqrt(sum(sigma))", "det",
-    "sum(sigma^2) - 0.01*sigma2", "sum(sigma^2 + 1e-9/sigma^2)", "sum(sigma)^2 - sum(sigma^2)", "sum(abs(sigma - 1))",
+    "sum(sigma^2) - 0.01*sigma2", "max(sigma)^2 + 0.1*min(sigma)", "sum(sigma^2 + 1e-9/sigma^2)", "sum(sigma)^2 - sum(sigma^2)", "sum(abs(sigma - 1))",
     "max(sigma)^3/sum(sigma)", "log(sum(sigma))", "prod(1 + sigma)", "sum(sigma^2) + (1 - p/2.5)/max(sigma)",
 ]  # fmt: skip
 

@@ -118,7 +118,7 @@ def maps() -> list[Entry]:
 
 
 def analyses() -> list[Entry]:
-    """What can be asked of a map beside its measures."""
+    """What can be asked of a map beside its measures, and of a distortion."""
     from workbench.core.method import KINDS
     from workbench.core.refine import SCHEMES
 
@@ -134,7 +134,11 @@ def analyses() -> list[Entry]:
         )
         for id, label in SCHEMES.items()
     ]
-    return [verdicts, *refinements]
+    badges = _entry("analyses", "badges", "Regularity of a distortion, with witnesses", "Corollary 2.1", KINDS, option="check")
+    convexity = _entry(
+        "analyses", "convexity", "Convexity of a distortion", "Theorem 8.3, Proposition 8.1", KINDS, option="check"
+    )
+    return [verdicts, *refinements, badges, convexity]
 
 
 def samples() -> list[Entry]:

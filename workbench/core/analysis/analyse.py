@@ -43,15 +43,25 @@ def analyse(distortion: Distortion, dimension: int) -> Analysis:
     )
 
 
+LACKS = {
+    "normalised": "not normalised",
+    "symmetric": "not symmetric",
+    "bottom_barrier": "no bottom barrier",
+    "top_barrier": "no top barrier",
+    "smooth_almost_everywhere": "not smooth almost everywhere",
+}
+"""What a distortion that is not regular lacks, in words."""
+
+
 def _regular(parts: dict[str, Property]) -> Property:
     """The conjunction, with D >= 0 as the corollary presupposes."""
-    failing = [name.replace("_", " ") for name, part in parts.items() if part.holds is False]
+    failing = [words for name, words in LACKS.items() if parts[name].holds is False]
     least = parts["normalised"].value
     if parts["normalised"].holds and least is not None and least < 0.0:
-        failing.append(f"nonnegative (its minimum is {least:.6g})")
+        failing.append(f"its minimum {least:.6g} is negative")
     if failing:
-        return Property(False, "", f"Not {', not '.join(failing)}.", {"fails": failing})
+        return Property(False, "", f"Not regular: {', '.join(failing)}.", {"lacks": failing})
     if all(part.holds for part in parts.values()):
         return Property(True, "", "All five properties of Corollary 2.1 hold.")
-    open_questions = [name.replace("_", " ") for name, part in parts.items() if part.holds is None]
-    return Property(None, "", f"Not decided: {', '.join(open_questions)}.")
+    undecided = [name.replace("_", " ") for name, part in parts.items() if part.holds is None]
+    return Property(None, "", f"Not decided, as it is open whether the distortion is or has: {', '.join(undecided)}.")

@@ -19,7 +19,7 @@ READABLE = {
 }  # fmt: skip
 """Chords that people can check by hand, tried first."""
 WEIGHTS = (0.25, 0.5, 0.75)
-COUNT, BEST, COPIES = 200, 40, 10
+COUNT, BEST, COPIES = 300, 40, 10
 STEPS = (0.5, 0.2, 0.1, 0.05, 0.02)
 """Random chords of a kind; how many of the best are improved, by how many copies, moved how far."""
 
@@ -140,5 +140,7 @@ def _random_chords(generator: np.random.Generator, n: int) -> Chords:
         swapped[every, i], swapped[every, j] = close[every, j], close[every, i]
         starts.append(close)
         ends.append(swapped)
-    weights = generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=COUNT * len(starts))
-    return np.concatenate(starts), np.concatenate(ends), weights
+    count = COUNT * len(starts)
+    weights = generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=count)
+    scale = np.where(generator.random(count) < 0.5, 1.0, np.exp(generator.uniform(-7.0, 7.0, size=count)))[:, None]
+    return scale * np.concatenate(starts), scale * np.concatenate(ends), weights

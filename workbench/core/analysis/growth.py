@@ -184,7 +184,7 @@ def _exponential(v: Leading | None) -> Leading:
     return Leading(1.0, (sign, sign * v.power, sign * v.logarithm, v.coefficient), rough=True)
 
 
-def _logarithm(v: Leading | None) -> Leading:
+def _logarithm(v: Leading | None) -> Leading | None:
     if v is None or v.coefficient < 0.0:
         raise Open
     sign, power, logarithm, coefficient = v.exponential
@@ -193,10 +193,12 @@ def _logarithm(v: Leading | None) -> Leading:
             raise Open
         return Leading(coefficient, power=sign * power, logarithm=sign * logarithm)
     if v.power:
-        return Leading(v.power, logarithm=1.0)
+        return Leading(v.power, logarithm=1.0, exact=v.exact and v.coefficient == 1.0)
+    if v.exact and v.coefficient == 1.0 and not v.logarithm:
+        return None
     if v.logarithm or v.rough or abs(v.coefficient - 1.0) < 1e-9:
         raise Open
-    return Leading(math.log(v.coefficient))
+    return Leading(math.log(v.coefficient), exact=v.exact)
 
 
 def _signed_rank(v: Leading | None) -> tuple[float, tuple[tuple[float, float, float, float], float, float] | tuple[()], float]:
