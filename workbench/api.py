@@ -35,7 +35,6 @@ from workbench.core.method import Kind, Parameter, parameter
 from workbench.core.metrics import killing_energy, reweighted_laplacian
 from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
-from workbench.core.progressive_reference import progressive_problem
 from workbench.core.progressive_solver import Progress, ProgressiveSolver
 from workbench.core.quasi_newton_solver import QuasiNewtonSolver
 from workbench.core.refine import Refined, refine
@@ -120,7 +119,6 @@ __all__ = [
     "moved_state",
     "never",
     "parameter",
-    "progressive_problem",
     "refine",
     "reweighted_laplacian",
     "run",
