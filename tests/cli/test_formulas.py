@@ -66,3 +66,43 @@ def test_a_damaged_list_of_formulas_stops_nothing(own, cli, tmp_path):
     assert cli("check", "sum(sigma^2)").status == 0
     assert cli("check", own).status == 2
     assert any(str(path) in (item.get("path") or "") for item in cli("list", "plugins", "--json").json)
+
+
+def test_formulas_are_saved_renamed_and_deleted(own, cli):
+    text = "sum(sigma^p) + weight/det"
+    refused = cli("formula", "save", "Powers", text, "--set", "p=4")
+    assert refused.status == 2 and "--set weight=" in refused.err
+    given = ("--set", "p=4", "--set", "weight=2", "--range", "p=1:8", "--note", "a try")
+    assert cli("formula", "save", "Powers", text, *given).out == "powers\n"
+    assert cli("check", "powers", "--json").json["parameters"] == {"p": 4, "weight": 2}
+    assert "outside" in cli("check", "powers", "--set", "p=9").err
+    again = cli("formula", "save", "Powers", text, *given)
+    assert again.status == 2 and "--replace" in again.err
+    assert cli("formula", "save", "Powers", "sum(sigma^6)", "--replace").status == 0
+    assert cli("check", "powers", "--json").json["parameters"] == {}
+    assert cli("formula", "rename", "powers", "Sixth powers").out == "sixth-powers\n"
+    assert cli("formula", "delete", "sixth-powers").status == 0
+    gone = cli("formula", "delete", "sixth-powers")
+    assert gone.status == 2 and own in gone.err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["save", "mips", "sum(sigma^2)"],
+        ["save", "x", "sum(sigma^2"],
+        ["save", "x", "sum(sigma^p)", "--set", "p=2", "--range", "p=low:high"],
+        ["save", "x", "sum(sigma^p)", "--set", "p=2", "--range", "p=3:1"],
+        ["save", "x", "sum(sigma^p)", "--set", "p=2", "--range", "q=1:3"],
+        ["rename", "my-blend", "arap"],
+        ["delete", "mips"],
+        ["forget", "my-blend"],
+        [],
+    ],
+    ids=" ".join,
+)
+def test_what_cannot_be_kept_is_refused_with_one_sentence(arguments, own, cli):
+    before = cli("list", "distortions").out
+    result = cli("formula", *arguments)
+    assert result.status == 2 and len(result.err.strip().splitlines()) == 1 and result.out == ""
+    assert cli("list", "distortions").out == before

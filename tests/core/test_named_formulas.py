@@ -116,6 +116,24 @@ def test_a_formula_that_is_none_is_not_kept(formula: str) -> None:
     assert not formulas_file().exists()
 
 
+@pytest.mark.parametrize(
+    "parameter",
+    [
+        Parameter("p", float, 1.0, "", 2.0, 1.0),
+        Parameter("p", float, 5.0, "", 0.0, 1.0),
+        Parameter("p", float, 1.0, "", 0.0, math.inf),
+        Parameter("p", float, math.nan),
+        Parameter("p", bool, True),
+        Parameter("det", float, 1.0),
+    ],
+    ids=str,
+)
+def test_a_parameter_that_could_not_be_read_again_is_not_kept(parameter: Parameter) -> None:
+    with pytest.raises(WorkbenchError):
+        save_formula(NamedFormula("own", f"{parameter.name}*sum(sigma^2)", (parameter,)))
+    assert not formulas_file().exists()
+
+
 PARAMETERS = st.lists(
     st.builds(
         lambda name, default, whole: Parameter(

@@ -82,6 +82,10 @@ def check_formula(item: NamedFormula, known: Mapping[str, Distortion]) -> None:
     """Raises `WorkbenchError` unless the formula can be used in both dimensions beside the distortions `known`."""
     if item.id in known:
         raise WorkbenchError(f"{item.name!r} would hide the distortion {item.id}; choose another name.")
+    try:
+        _formula_of_entry(_entry_of(item))  # what could not be read again is not kept
+    except WorkbenchError as error:
+        raise WorkbenchError(f"The formula {item.name!r} cannot be kept: {error.sentence}") from None
     names = [p.name for p in item.parameters]
     if len(set(names)) < len(names):
         raise WorkbenchError(f"{item.name!r} declares a parameter twice.")
@@ -153,26 +157,14 @@ def add_formulas(items: Iterable[NamedFormula], known: dict[str, Distortion]) ->
 
 def text_of_formulas(items: Iterable[NamedFormula]) -> str:
     """The file's content."""
-    entries = [
-        {
-            "name": item.name,
-            "formula": item.formula,
-            "note": item.note,
-            "parameters": [
-                {
-                    "name": p.name,
-                    "type": p.type.__name__,
-                    "default": p.default,
-                    "minimum": p.minimum,
-                    "maximum": p.maximum,
-                    "description": p.description,
-                }
-                for p in item.parameters
-            ],
-        }
-        for item in items
-    ]
-    return json.dumps({"schema": SCHEMA, "formulas": entries}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    content = {"schema": SCHEMA, "formulas": [_entry_of(item) for item in items]}
+    return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _entry_of(item: NamedFormula) -> dict[str, Any]:
+    keys = ("name", "default", "minimum", "maximum", "description")
+    parameters = [{"type": p.type.__name__, **{key: getattr(p, key) for key in keys}} for p in item.parameters]
+    return {"name": item.name, "formula": item.formula, "note": item.note, "parameters": parameters}
 
 
 def _no_constant(word: str) -> None:
