@@ -140,15 +140,38 @@ def test_gauges_are_convex_for_every_parameter(id: str, values: dict[str, float]
 
 
 CONVEX = [
-    "sum(sigma)^2", "sum(sigma^p)", "sum(sigma^3)^(1/2)", "exp(sum(sigma))", "log(sum(exp(sigma)))", "2*sigma1 + sigma2",
-    "max(sum(sigma), 2*max(sigma), 1)", "average_singular_value^3", "0.3*dirichlet + 0.7*spectral", "max(sigma^2)",
-    "sum(sqrt(1 + sigma^2))", "sum(sigma^2)/2 + sum(sigma)/3 - 5", "sqrt(sum(largest(2)^2))",
-]  # fmt: skip
+    "sum(sigma)^2",
+    "sum(sigma^p)",
+    "sum(sigma^3)^(1/2)",
+    "exp(sum(sigma))",
+    "log(sum(exp(sigma)))",
+    "2*sigma1 + sigma2",
+    "max(sum(sigma), 2*max(sigma), 1)",
+    "average_singular_value^3",
+    "0.3*dirichlet + 0.7*spectral",
+    "max(sigma^2)",
+    "sum(sqrt(1 + sigma^2))",
+    "sum(sigma^2)/2 + sum(sigma)/3 - 5",
+    "sqrt(sum(largest(2)^2))",
+]
 NOT_CONVEX = [
-    "min(sigma)", "sigma1 - sigma2", "sigma1 + 2*sigma2", "sum(sigma^0.5)", "sum(sqrt(sigma))^2", "sqrt(sum(sigma))", "det",
-    "sum(sigma^2) - 0.01*sigma2", "max(sigma)^2 + 0.1*min(sigma)", "sum(sigma^2 + 1e-9/sigma^2)", "sum(sigma)^2 - sum(sigma^2)", "sum(abs(sigma - 1))",
-    "max(sigma)^3/sum(sigma)", "log(sum(sigma))", "prod(1 + sigma)", "sum(sigma^2) + (1 - p/2.5)/max(sigma)",
-]  # fmt: skip
+    "min(sigma)",
+    "sigma1 - sigma2",
+    "sigma1 + 2*sigma2",
+    "sum(sigma^0.5)",
+    "sum(sqrt(sigma))^2",
+    "sqrt(sum(sigma))",
+    "det",
+    "sum(sigma^2) - 0.01*sigma2",
+    "max(sigma)^2 + 0.1*min(sigma)",
+    "sum(sigma^2 + 1e-9/sigma^2)",
+    "sum(sigma)^2 - sum(sigma^2)",
+    "sum(abs(sigma - 1))",
+    "max(sigma)^3/sum(sigma)",
+    "log(sum(sigma))",
+    "prod(1 + sigma)",
+    "sum(sigma^2) + (1 - p/2.5)/max(sigma)",
+]
 
 
 @pytest.mark.parametrize("n", [2, 3])
