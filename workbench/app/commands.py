@@ -13,10 +13,12 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 from workbench.app.background import Background
 from workbench.app.help_texts import ABOUT, SHORTCUTS
 from workbench.app.refining import Refining
+from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, Saver, SaveRequest
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+    from workbench.app.signatures.signature_window import SignatureWindow
 
 MESH_FILTERS = (
     "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
@@ -34,6 +36,7 @@ class Commands(QObject):
         self.saver.saved.connect(lambda path: window.status.say(f"Saved {path}."))
         self.saver.failed.connect(lambda sentence: window.error_bar.show_message(sentence))
         self._boundary_search: Background | None = None
+        self.signatures: SignatureWindow | None = None
         self.refining = Refining(window)
         document = window.document
         deeds: dict[str, Any] = {
@@ -53,6 +56,7 @@ class Commands(QObject):
             "edges": self.show_edges,
             "lock": self.hold_ranges,
             "unbrush": window.brush.clear,
+            "signatures": self.show_signatures,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
@@ -63,6 +67,8 @@ class Commands(QObject):
     def wait(self) -> None:
         """Let threads end before the window does."""
         self.saver.wait()
+        if self.signatures is not None:
+            self.signatures.wait()
         self.refining.wait()
         if self._boundary_search is not None:
             self._boundary_search.wait()
@@ -163,6 +169,26 @@ class Commands(QObject):
 
     def hold_ranges(self) -> None:
         self._window.quantities.hold_all(self._window.actions_by_name["lock"].isChecked())
+
+    def show_signatures(self) -> None:
+        """The window that compares maps; the maps in it stay while it is closed."""
+        if self.signatures is None:
+            from workbench.app.signatures.signature_window import SignatureWindow
+
+            window = self._window
+            self.signatures = SignatureWindow(window.theme, window.settings.folder, window)
+            self.signatures.present_wanted.connect(self._add_signature)
+            window.theme_switch.changed.connect(self.signatures.set_theme)
+            self._add_signature()
+        self.signatures.show()
+        self.signatures.raise_()
+
+    def _add_signature(self) -> None:
+        mesh, positions, snapshot = self._document.mesh, self._document.positions, self._document.snapshot
+        if mesh is None or positions is None or snapshot is None or self.signatures is None:
+            return
+        name = f"{source_name(self._document.session.source)}, iteration {snapshot.row.iteration}"
+        self.signatures.add_map(mesh, positions, name)
 
     def choose_theme(self, choice: str) -> None:
         self._window.settings.theme = choice

@@ -23,6 +23,7 @@ SHORTCUTS = """
 <tr><td>E</td><td>show or hide edges</td></tr>
 <tr><td>Delete</td><td>remove the selected anchor</td></tr>
 <tr><td>Esc</td><td>clear the brush</td></tr>
+<tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
 </table>

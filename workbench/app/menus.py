@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def fill_menus(window: MainWindow) -> None:
-    """File, Edit, Solver, View, Help."""
+    """File, Edit, Solver, Analyse, View, Help."""
     actions, bar = window.actions_by_name, window.menuBar()
     file_menu = bar.addMenu("&File")
     file_menu.addAction(actions["open"])
@@ -25,7 +25,8 @@ def fill_menus(window: MainWindow) -> None:
     samples.aboutToShow.connect(lambda: fill_samples(window, samples))
     file_menu.addSeparator()
     file_menu.addAction(actions["save"])
-    _add_screenshots(window, file_menu.addMenu("S&creenshot of"))
+    screenshots = file_menu.addMenu("S&creenshot of")
+    screenshots.aboutToShow.connect(lambda: fill_screenshots(window, screenshots))
     file_menu.addSeparator()
     file_menu.addAction(actions["quit"])
     edit = bar.addMenu("&Edit")
@@ -36,6 +37,8 @@ def fill_menus(window: MainWindow) -> None:
     solver = bar.addMenu("&Solver")
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])
+    analyse = bar.addMenu("&Analyse")
+    analyse.addAction(actions["signatures"])
     view = bar.addMenu("&View")
     for name in ("fit", "edges", "lock", "unbrush"):
         view.addAction(actions[name])
@@ -49,7 +52,9 @@ def fill_menus(window: MainWindow) -> None:
         help_menu.addAction(actions[name])
 
 
-def _add_screenshots(window: MainWindow, menu: QMenu) -> None:
+def fill_screenshots(window: MainWindow, menu: QMenu) -> None:
+    """The window, its views, and the panels by what they show now."""
+    menu.clear()
     menu.addAction(window.actions_by_name["shot-window"])
     parts: list[tuple[str, QWidget]] = [("source", window.source.view), ("target", window.target.view)]
     parts += [(dock.windowTitle(), dock) for dock in window.docks[1:]]

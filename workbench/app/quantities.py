@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -69,7 +70,8 @@ FACTORS: tuple[Quantity, ...] = (
 
 def quantity_of_distortion(item: Distortion, group: str = "distortions") -> Quantity:
     """A registered distortion with its default parameters."""
-    equation = item.citation.split(";")[0].strip() if item.citation.startswith("(") else ""
+    numbered = re.match(r"\(\d+\)(-\(\d+\))?", item.citation)
+    equation = numbered.group() if numbered else ""
     least, centre = _sides(item)
     return Quantity(item.id, item.label, equation, item.formula, least, centre=centre, group=group)
 

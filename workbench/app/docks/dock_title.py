@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QStyle, QToolButton, QWi
 
 
 class DockTitle(QWidget):
-    """Widgets in the place of a dock's title, and the buttons that every dock has; between them, and at its edges, it is dragged."""
+    """Widgets in the place of a dock's title, and the buttons that every dock has; it is dragged between them."""
 
     def __init__(self, dock: QDockWidget, *widgets: QWidget) -> None:
         super().__init__(dock)

@@ -19,7 +19,8 @@ class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
     def tickValues(self, low: float, high: float, size: float) -> list[tuple[float, list[float]]]:
         if not self.logMode:
             return list(super().tickValues(low, high, size))
-        most = max(int(size / 28), 2)
+        room = 28 if self.orientation in ("left", "right") else 52
+        most = max(int(size / room), 2)
         return [(1.0, decade_marks(low, high, most))]
 
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:

@@ -1,0 +1,1 @@
+"""The window in which maps are compared by their shape signatures."""
