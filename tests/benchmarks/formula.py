@@ -2,8 +2,8 @@
 
     python tests/benchmarks/formula.py [--triangles N]
 
-Both run in the same process, in turns, from the same maps; then the time from a typed text to the map after its first step, on a
-run that is under way, as when a formula is changed in the window.
+Both run in the same process, in turns, from the same maps; then the time from a typed text to the map after its first step,
+on a run that is under way, as when a formula is changed in the window.
 """
 
 from __future__ import annotations

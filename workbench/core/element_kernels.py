@@ -4,11 +4,12 @@ Each kernel works on the simplices [start, stop) and adds into buffers of its ow
 the sum is taken in a fixed order. Within a block: edges -> signed singular values -> the formula's tape -> assembly.
 Hessian in J-space: the block D_ij on span(u_i v_i^T), and a twist and a flip for each pair (the isotropic eigensystem).
 
-Where D_i and D_j differ at sigma_i = sigma_j (max(sigma), say), D has a kink there: along any way through the tie it runs like
-(D_i - D_j) |sigma_i - sigma_j| / 2, the length of a vector, so the flip eigenvalue tends to infinity and the second derivative
-across is 0 up to the tie. Within the part `SWITCH` of sigma_1 that length is replaced by Huber's function, a parabola: at the tie
-itself the derivative is the mean of D_i and D_j, the subgradient that no rotation changes. A projected Hessian moreover takes the
-flip eigenvalue across the tie too, as iteratively reweighted least squares does: Newton steps then end at the tie.
+Where D_i and D_j differ at sigma_i = sigma_j (max(sigma), say), D has a kink there: along any way through the tie it runs
+like (D_i - D_j) |sigma_i - sigma_j| / 2, the length of a vector, so the flip eigenvalue tends to infinity and the second
+derivative across is 0 up to the tie. Within the part `SWITCH` of sigma_1 that length is replaced by Huber's function, a
+parabola: at the tie itself the derivative is the mean of D_i and D_j, the subgradient that no rotation changes. A projected
+Hessian moreover takes the flip eigenvalue across the tie too, as iteratively reweighted least squares does: Newton steps then
+end at the tie.
 """
 
 from __future__ import annotations

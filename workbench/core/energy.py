@@ -58,7 +58,7 @@ class Energy:
         return replace(self, distortion=distortion, allow_inversions=allow_inversions)
 
     def from_start(self, positions: Floats) -> Energy:
-        """For a distortion that looks at the start (N, d): the same energy with the barrier of what is inverted there removed."""
+        """For a distortion that looks at the start (N, d): the barrier of what is inverted there is removed."""
         if not self.distortion.looks_at_start:
             return self
         return replace(self, kept=(determinants(self.elements, positions) > 0).astype(np.float64))

@@ -1,9 +1,9 @@
 """Norms of the Jacobian, which are not smooth where a simplex collapses: a descent on ever less softened ones.
 
 The norms of (84) are convex, but like |x| at 0 they have a kink where singular values vanish, and their minima collapse
-simplices: Newton's method stops far from them. So each sigma_i is softened to sqrt(sigma_i^2 + s^2), which keeps the energy convex
-and makes it smooth; when the softened energy is at its minimum, s shrinks by `SHRINKAGE`, down to `LEAST` of the size of the map.
-A step is kept only if the energy proper does not rise by it; else s shrinks at once.
+simplices: Newton's method stops far from them. So each sigma_i is softened to sqrt(sigma_i^2 + s^2), which keeps the energy
+convex and makes it smooth; when the softened energy is at its minimum, s shrinks by `SHRINKAGE`, down to `LEAST` of the size
+of the map. A step is kept only if the energy proper does not rise by it; else s shrinks at once.
 """
 
 from __future__ import annotations

@@ -43,8 +43,8 @@ def refine(mesh: Mesh, positions: ArrayLike | None = None, scheme: str = "linear
     """Refine a source and a map of it by the same scheme, so that their simplices correspond.
 
     `linear` halves every edge and keeps the shape, so that every energy stays (Theorem 9.1); `loop` and `catmull-clark`
-    smooth source and map alike, the boundary to a curve of its own. Catmull-Clark keeps its quadrilaterals from level to
-    level and splits them into triangles at the end. Texture coordinates are refined as a mesh of their own, whose seams are
+    smooth source and map alike, the boundary to a curve of its own. Catmull-Clark splits its quadrilaterals into triangles
+    after each level, as in Fig. 20. Texture coordinates are refined as a mesh of their own, whose seams are
     its boundary, while the surface has none there. Orientation stays. The polygons that triangles were fanned from do not.
 
     Parameters
@@ -85,11 +85,8 @@ def refined_levels(
 
 def refined_count(mesh: Mesh, scheme: str, levels: int) -> int:
     """Simplices after so many levels."""
-    if levels == 0:
-        return mesh.simplex_count
-    if scheme == "catmull-clark":
-        return 6 * mesh.simplex_count * 4 ** (levels - 1)
-    return mesh.simplex_count * (8 if mesh.dimension == 3 else 4) ** levels
+    children = 6 if scheme == "catmull-clark" else 8 if mesh.dimension == 3 else 4
+    return mesh.simplex_count * children**levels
 
 
 def check_refinement(mesh: Mesh, scheme: str, levels: int) -> None:
@@ -122,9 +119,10 @@ def _walk(cells: Integers, points: Floats, scheme: str, levels: int) -> Iterator
         elif scheme == "loop":
             cells, weights = loop_step(cells, len(points))
         else:
-            cells, weights = catmull_clark_step(cells, len(points))
+            quadrilaterals, weights = catmull_clark_step(cells, len(points))
+            cells = split_quadrilaterals(quadrilaterals)
         points = weights @ points
-        yield split_quadrilaterals(cells) if scheme == "catmull-clark" else cells, points
+        yield cells, points
 
 
 def _texture_mesh(mesh: Mesh, texture: TextureCoordinates) -> tuple[Integers, Floats]:
