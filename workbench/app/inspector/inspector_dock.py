@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeySequence
+from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
     QComboBox,
     QDockWidget,
@@ -33,8 +33,8 @@ from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.registry import Registry
 
-WIDTH, HEIGHT = 400, 600
-"""Of the dock when it is opened first, in a column with the colour maps."""
+WIDTH, LEAST_MAP = 390, 250
+"""Width of the dock when it is opened, and what it leaves of the column's height to the colour maps."""
 RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
 
 
@@ -91,7 +91,10 @@ class InspectorDock(QDockWidget):
         self.setObjectName("inspector")
         self._maps: Sequence[QDockWidget] = ()
         self._made_room = False
-        self.toggle = self.toggleViewAction()
+        self._column: list[QDockWidget] = []
+        self._before = (0, 0)
+        self.toggle = QAction("Inspector", self)
+        self.toggle.setCheckable(True)
         self.toggle.setShortcut(QKeySequence("Ctrl+I"))
         self.toggle.setToolTip("Formula, properties and plots of the distortion (Ctrl+I)")
         self.subject = Subject(document)
@@ -132,14 +135,29 @@ class InspectorDock(QDockWidget):
         self._maps = maps
         window.addDockWidget(RIGHT, self)
         self.hide()
-        self.toggle.triggered.connect(lambda is_open: self._make_room(window) if is_open else None)
-        self.toggle.toggled.connect(lambda is_open: None if is_open else self._give_back(window))
+        self.toggle.triggered.connect(lambda is_open: self._open(window) if is_open else self.hide())
+        shown = super().toggleViewAction()
+        shown.toggled.connect(self.toggle.setChecked)
+        shown.toggled.connect(lambda is_open: None if is_open else self._give_back(window))
+
+    def toggleViewAction(self) -> QAction:
+        """Qt's own would show the dock before there is room for it, and the window would grow."""
+        return self.toggle
+
+    def _open(self, window: QMainWindow) -> None:
+        self._make_room(window)
+        self.show()
+        if self._made_room:
+            self._share_height(window)
+        window.resizeDocks([self], [WIDTH], Qt.Orientation.Horizontal)
 
     def _make_room(self, window: QMainWindow) -> None:
         """Lay the colour maps behind each other: the column then holds one of them and the inspector."""
         column = [dock for dock in self._maps if _is_in_column(window, dock)]
-        if self.isFloating() or not _is_in_column(window, self) or window.tabifiedDockWidgets(self):
+        if self.isFloating() or window.dockWidgetArea(self) != RIGHT or window.tabifiedDockWidgets(self):
             return
+        self._column = column
+        self._before = (column[0].width() if column else 0, sum(dock.height() for dock in column))
         if column and not any(window.tabifiedDockWidgets(dock) for dock in column):
             # first below the first map: beside docks that lie behind each other it would become one of them
             window.splitDockWidget(column[0], self, Qt.Orientation.Vertical)
@@ -147,21 +165,24 @@ class InspectorDock(QDockWidget):
                 window.tabifyDockWidget(column[0], dock)
             column[0].raise_()
             self._made_room = len(column) > 1
-        if column:
-            rest = max(window.height() - HEIGHT, 200)
-            window.resizeDocks([column[0], self], [rest, HEIGHT], Qt.Orientation.Vertical)
-        window.resizeDocks([self], [WIDTH], Qt.Orientation.Horizontal)
+
+    def _share_height(self, window: QMainWindow) -> None:
+        # together no more than there was
+        height = self._before[1]
+        rest = min(max(LEAST_MAP, height // 3), height // 2)
+        window.resizeDocks([self._column[0], self], [rest, height - rest], Qt.Orientation.Vertical)
 
     def _give_back(self, window: QMainWindow) -> None:
         """Lay the colour maps below each other again, where they still stand as they were put."""
         if not self._made_room:
             return
         self._made_room = False
-        column = [dock for dock in self._maps if _is_in_column(window, dock)]
-        if len(column) == len(self._maps) and all(window.tabifiedDockWidgets(dock) for dock in column):
+        column = self._column
+        if all(_is_in_column(window, dock) and window.tabifiedDockWidgets(dock) for dock in column):
             for dock in column[1:]:
                 window.addDockWidget(RIGHT, dock, Qt.Orientation.Vertical)
             window.resizeDocks(column, [100] * len(column), Qt.Orientation.Vertical)
+            window.resizeDocks(column[:1], [self._before[0]], Qt.Orientation.Horizontal)
 
     # ------------------------------------------------------------------------------------------ parts
 

@@ -71,9 +71,9 @@ class PlanePage(Page):
         document.opened.connect(self._forget)
 
     def _make_controls(self) -> None:
-        self.axes = _choice(self, ("logarithmic axes", True), ("linear axes", False))
+        self.axes = _choice(self, ("log axes", True), ("linear axes", False))
         self.axes.activated.connect(lambda _: self._change_axes())
-        self.colours = _choice(self, ("logarithmic D", True), ("linear D", False))
+        self.colours = _choice(self, ("log D", True), ("linear D", False))
         self.colours.activated.connect(lambda _: self._rest.start())
         self.tool = _choice(self, ("rectangle", False), ("lasso", True))
         self.tool.setToolTip("What a drag with the left button draws; the simplices inside are marked in every view.")
