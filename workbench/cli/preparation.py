@@ -6,7 +6,7 @@ import argparse
 import os
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,6 +22,7 @@ from workbench.core.mesh import Mesh
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
 from workbench.core.solver import Solver
+from workbench.engine.compiling import compile_kernels
 from workbench.engine.starts import DEFAULT_INITIALIZERS, adjusted_start, make_start
 from workbench.io.anchors import read_anchors
 from workbench.io.opening import OpenedSource, open_source
@@ -66,7 +67,7 @@ def prepare(options: argparse.Namespace) -> Prepared:
     with _timed(seconds, "start"):
         start = _start(opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
     with _timed(seconds, "compile"):
-        _compile_kernels(problem, solver)
+        compile_kernels(problem, solver)
     return Prepared(str(options.file), opened, problem, solver, initializer, start, seconds)
 
 
@@ -123,16 +124,6 @@ def _vertices_after_fixes(path: str, vertices: np.ndarray, mesh: Mesh) -> np.nda
             raise WorkbenchError(f"{path}: vertex {vertex} {what}; anchor another vertex.")
         found.append(int(now[0]))
     return np.array(found, dtype=np.int64)
-
-
-def _compile_kernels(problem: Problem, solver: Solver) -> None:
-    """One step on a single simplex of the same dimension, so that no compilation is counted as solving."""
-    n = problem.dimension
-    corners = np.vstack([np.zeros(n), np.eye(n)])
-    simplex = Mesh(corners, np.arange(n + 1)[None])
-    with suppress(Exception, SystemExit):  # whatever is wrong will be said of the real problem
-        small = Problem.create(simplex, "plane" if n == 2 else "volume", problem.distortion)
-        solver.step(small, solver.init(small, corners * 1.25))
 
 
 @contextmanager

@@ -28,6 +28,14 @@ class HistoryRow:
     anchor_error: float
 
 
+@dataclass(frozen=True)
+class Limits:
+    """What a user allows a run: `iterations` steps, `seconds` of solving."""
+
+    iterations: int = 1000
+    seconds: float = float("inf")
+
+
 @dataclass(frozen=True, eq=False)
 class RunResult:
     """`state.status` says how it ended; `seconds` has total, setup, assemble, factorise, solve, line_search."""
@@ -50,6 +58,40 @@ def history_row(problem: Problem, state: State, seconds: float) -> HistoryRow:
         inverted=state.inverted,
         anchor_error=state.anchor_error,
     )
+
+
+def step_within(
+    solver: Solver,
+    problem: Problem,
+    state: State,
+    limits: Limits,
+    taken: int,
+    elapsed: Callable[[], float],
+    interrupt: Interrupt = never,
+) -> State:
+    """The state after one more step with its status told, or the same map with the status of the limit that forbids a step.
+
+    Parameters
+    ----------
+    taken : int            steps so far
+    elapsed : callable     seconds so far; also asked within the step, which ends with the old map when they are up
+
+    Raises `SolverFaultError` where the solver itself is at fault.
+    """
+
+    def is_late() -> bool:
+        return elapsed() >= limits.seconds
+
+    if taken >= limits.iterations:
+        return replace(state, status=Status.MAX_ITERATIONS)
+    if is_late():
+        return replace(state, status=Status.TIME_LIMIT)
+    if interrupt():
+        return replace(state, status=Status.INTERRUPTED)
+    following = guarded_step(solver, problem, state, lambda: interrupt() or is_late())
+    if following.status is Status.INTERRUPTED and not interrupt():
+        following = replace(following, status=Status.TIME_LIMIT)
+    return replace(following, status=solver.terminate(problem, following))
 
 
 def run(
@@ -84,34 +126,24 @@ def run(
     before = problem.workspace.all_seconds()
     rows: list[HistoryRow] = []
 
+    def elapsed() -> float:
+        return time.perf_counter() - begin
+
     def record() -> None:
-        rows.append(history_row(problem, state, time.perf_counter() - begin))
+        rows.append(history_row(problem, state, elapsed()))
         if on_row:
             on_row(rows[-1])
         if on_state:
             on_state(state)
 
-    def stop() -> bool:
-        return interrupt() or time.perf_counter() - begin >= time_limit
-
     record()
     taken = 0
+    limits = Limits(iterations, time_limit)
     while state.status is Status.RUNNING:
-        if taken >= iterations:
-            state = replace(state, status=Status.MAX_ITERATIONS)
-        elif time.perf_counter() - begin >= time_limit:
-            state = replace(state, status=Status.TIME_LIMIT)
-        elif interrupt():
-            state = replace(state, status=Status.INTERRUPTED)
-        else:
-            state = guarded_step(solver, problem, state, stop)
-            taken += 1
-            moved = state.iteration > rows[-1].iteration
-            if state.status is Status.INTERRUPTED and not interrupt():
-                state = replace(state, status=Status.TIME_LIMIT)
-            state = replace(state, status=solver.terminate(problem, state))
-            if moved:
-                record()
+        state = step_within(solver, problem, state, limits, taken, elapsed, interrupt)
+        taken += 1
+        if state.iteration > rows[-1].iteration:
+            record()
     total = time.perf_counter() - begin
     after = problem.workspace.all_seconds()
     seconds = {"total": total, "setup": setup, **{k: after[k] - before.get(k, 0.0) for k in after}}

@@ -93,18 +93,23 @@ class Solver(Method, ABC):
 
     def rebase(self, problem: Problem, state: State) -> State:
         """Anchors, distortion or parameters moved: the same map under the new problem; the solver's memory is dropped."""
-        evaluation = problem.evaluate(state.positions, 1)
-        return replace(
-            state,
-            energy=evaluation.energy,
-            gradient_norm=problem.free_gradient_norm(evaluation.gradient),
-            inverted=evaluation.inverted,
-            anchor_error=problem.anchor_error(state.positions),
-            previous_energy=float("nan"),
-            status=Status.RUNNING,
-            memory=None,
-            approach=Approach(),
-        )
+        return restarted(problem, state)
+
+
+def restarted(problem: Problem, state: State) -> State:
+    """The same map measured under `problem`; what the solver remembered of the way there is dropped."""
+    evaluation = problem.evaluate(state.positions, 1)
+    return replace(
+        state,
+        energy=evaluation.energy,
+        gradient_norm=problem.free_gradient_norm(evaluation.gradient),
+        inverted=evaluation.inverted,
+        anchor_error=problem.anchor_error(state.positions),
+        previous_energy=float("nan"),
+        status=Status.RUNNING,
+        memory=None,
+        approach=Approach(),
+    )
 
 
 def characteristic_gradient(problem: Problem) -> float:
