@@ -49,7 +49,17 @@ class NormalForms:
             return self._power(arguments[0], exponent) or opaque
         if op is Op.ABS and self.nonnegative[arguments[0]]:
             return self.forms[arguments[0]]
+        if op in (Op.MAXIMUM, Op.MINIMUM):
+            ordered = self._ordered(*arguments)
+            return opaque if ordered is None else self.forms[ordered[0 if op is Op.MAXIMUM else 1]]
         return opaque
+
+    def _ordered(self, a: int, b: int) -> tuple[int, int] | None:
+        """(larger, smaller) where one of them is never less than the other; None elsewhere."""
+        difference = _sum(self.forms[a], self.forms[b], -1.0)
+        if self._is_nonnegative_form(difference):
+            return a, b
+        return (b, a) if self._is_nonnegative_form({monomial: -c for monomial, c in difference.items()}) else None
 
     def _factor(self, node: int) -> Form:
         """The node as one product: its form where that has one term, else the node itself."""
@@ -101,11 +111,14 @@ class NormalForms:
         form = self.forms[node]
         if ((node, 1.0),) in form:
             return False
-        return all(c >= 0.0 and self.is_nonnegative_product(m) for m, c in form.items()) or self._is_ordered_sum(form)
+        return self._is_nonnegative_form(form)
 
-    def is_nonnegative_product(self, monomial: Monomial) -> bool:
-        """Whether a product of powers is nonnegative: of nonnegative factors, or of even powers."""
-        return all(self.nonnegative[base] or exponent % 2.0 == 0.0 for base, exponent in monomial)
+    def _is_nonnegative_form(self, form: Form) -> bool:
+        """Whether each term is nonnegative, a product of nonnegative factors or even powers, or they are so together."""
+        return self._is_ordered_sum(form) or all(
+            c >= 0.0 and all(self.nonnegative[base] or exponent % 2.0 == 0.0 for base, exponent in monomial)
+            for monomial, c in form.items()
+        )
 
     def _is_ordered_sum(self, form: Form) -> bool:
         """Whether sum c_i sigma_i + c_0 is nonnegative because the singular values descend, as sigma_1 - sigma_n is."""

@@ -135,6 +135,8 @@ class Rules:
             return False
         base, exponent = above[0]
         facts = self.facts[base]
+        if not below and self.graph.nodes[base][0] is Op.EXP:  # exp(u)^e = exp(e u)
+            return self.facts[self.graph.nodes[base][2][0]].convex
         if facts.convex and facts.concave and exponent % 2.0 == 0.0 and exponent >= 1.0 + degree:
             return True
         if self.forms.nonnegative[base] and facts.convex and exponent >= 1.0 + degree:
