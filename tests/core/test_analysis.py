@@ -189,6 +189,21 @@ def test_a_convex_function_of_sorted_values_may_be_no_convex_function_of_the_map
 
 
 @pytest.mark.parametrize("n", [2, 3])
+def test_a_jump_at_the_collapse_is_never_convex_and_no_barrier_in_the_limit(n: int) -> None:
+    walled = Distortion("walled", "walled", "sum(sigma^2)", barrier=True)
+    analysis = analyse(walled, n)
+    assert analysis.convex.holds is False and analysis.bottom_barrier.holds is False
+    witness = analysis.convex.witness
+    assert witness is not None and np.linalg.det(witness["matrices"][1]) == 0.0
+    assert all(np.linalg.det(witness["matrices"][k]) > 0.0 for k in (0, 2))
+
+
+def test_a_large_constant_hides_no_barrier() -> None:
+    found = analyse(Distortion.from_formula("1e6 + log(1 + sigma1/sigma2)"), 2)
+    assert found.bottom_barrier.holds and found.top_barrier.holds and found.normalised.holds
+
+
+@pytest.mark.parametrize("n", [2, 3])
 def test_analysis_is_deterministic(n: int) -> None:
     for id in ("lp-gauge", "volume", "amips"):
         assert analyse(registry().distortions[id], n) == badges(id, n)

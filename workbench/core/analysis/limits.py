@@ -85,7 +85,7 @@ def grows(values: Floats) -> Floats:
             rise = np.diff(usable)
             scale = max(float(np.abs(usable).max()), 1.0)
             # Depth doubles: even a logarithm of a logarithm keeps its increments, what converges loses them.
-            verdict[k] = float(rise[-1] > 1e-9 * scale and rise[-1] >= 0.7 * rise[-2] and usable[-1] >= usable.max())
+            verdict[k] = float(rise[-1] > 1e-12 * scale and rise[-1] >= 0.7 * rise[-2] and usable[-1] >= usable.max())
     return verdict
 
 
@@ -117,7 +117,7 @@ def bounded_valley(density: Density, paths: Paths, side: Side) -> Floats | None:
         return None
     rise = np.diff(usable)
     scale = max(abs(value) for value in usable) + 1e-300
-    is_flat = rise[-1] <= 1e-9 * scale or rise[-1] <= 0.2 * rise[-2]
+    is_flat = rise[-1] <= 1e-12 * scale or rise[-1] <= 0.2 * rise[-2]
     return np.array(points[: len(usable)]) if is_flat else None
 
 

@@ -43,7 +43,7 @@ def _proof(density: Density, at_ones: float) -> str:
     if at_ones == 0.0 and NormalForms(density.graph, density.order).nonnegative[density.root]:
         return "D is nowhere negative"
     if is_proved_log_convex(density):
-        return "D is convex in log sigma, and rises from there in every direction that was tried"
+        return "D is convex in log sigma, and falls from there in no direction that was tried"
     return ""
 
 
