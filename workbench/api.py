@@ -11,7 +11,14 @@ from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.convex_map import cotangent_weights, laplacian, map_disc, uniform_weights
 from workbench.core.definite_solve import DefiniteFactor, solve_with_fixed
 from workbench.core.descent import Derivatives, derivatives_at, descend, is_finite
-from workbench.core.descent_solver import DescentSolver, direction_in_laplacian, direction_in_metric, free_gradient, grown_step
+from workbench.core.descent_solver import (
+    DescentSolver,
+    LaplacianDescentSolver,
+    direction_in_laplacian,
+    direction_in_metric,
+    free_gradient,
+    grown_step,
+)
 from workbench.core.disc_boundary import BoundaryShape, convex_outline, disc_boundary
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Evaluation
@@ -69,6 +76,7 @@ __all__ = [
     "Integers",
     "Interrupt",
     "Kind",
+    "LaplacianDescentSolver",
     "LaplacianSystem",
     "LinearConstraints",
     "Mesh",

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass, replace
 
 from workbench.api import (
-    DescentSolver,
     Evaluation,
     Extrapolated,
     Interrupt,
+    LaplacianDescentSolver,
     Problem,
     State,
     Status,
@@ -23,7 +23,7 @@ from workbench.api import (
 
 
 @dataclass(frozen=True)
-class AcceleratedQuadraticProxy(DescentSolver):
+class AcceleratedQuadraticProxy(LaplacianDescentSolver):
     """AQP: descent in the metric of the source's Laplacian, begun at y = x_i + theta (x_i - x_(i-1)).
 
     theta = (1 - sqrt(1/eta)) / (1 + sqrt(1/eta)), shortened to half of the largest step without inversion, as is the step

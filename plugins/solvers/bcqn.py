@@ -47,6 +47,9 @@ class BlendedCuredQuasiNewton(QuasiNewtonSolver):
         minimum=0.0, maximum=1.0,
     )  # fmt: skip
 
+    def prepare(self, problem: Problem) -> None:
+        problem.workspace.laplacian.prepare()
+
     def initial(self, problem: Problem, gradient: Floats) -> Floats:
         return -direction_in_laplacian(problem, gradient)
 

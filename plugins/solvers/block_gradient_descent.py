@@ -52,6 +52,9 @@ class BlockGradientDescent(DescentSolver):
     growth: float = parameter(2.0, "factor on a vertex's last step for its next first trial", minimum=1.0, maximum=100.0)
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
 
+    def prepare(self, problem: Problem) -> None:
+        problem.workspace.vertex_blocks  # noqa: B018
+
     def advance(self, problem: Problem, state: State, evaluation: Evaluation, interrupt: Interrupt) -> State:
         memory = state.memory if isinstance(state.memory, BlockMemory) else None
         lengths = memory.lengths.copy() if memory is not None else np.zeros(len(state.positions))

@@ -35,6 +35,9 @@ class GradientDescent(Solver):
 
     growth: float = parameter(2.0, "factor on the last accepted step for the next first trial", minimum=1.0, maximum=100.0)
 
+    def prepare(self, problem: Problem) -> None:
+        """Nothing is made once."""
+
     def step(self, problem: Problem, state: State, interrupt: Interrupt = never) -> State:
         if problem.anchors_lag(state.positions):
             return approach_anchors(problem, state, interrupt)

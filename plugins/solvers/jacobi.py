@@ -60,6 +60,9 @@ class Jacobi(DescentSolver):
     growth: float = parameter(1.5, "factor on the last plain step for the next first trial", minimum=1.0, maximum=100.0)
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
 
+    def prepare(self, problem: Problem) -> None:
+        problem.density.pattern  # noqa: B018
+
     def advance(self, problem: Problem, state: State, evaluation: Evaluation, interrupt: Interrupt) -> State:
         memory = state.memory if isinstance(state.memory, ChebyshevMemory) else None
         if memory is not None and memory.age < self.refresh:

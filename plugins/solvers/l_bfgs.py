@@ -36,6 +36,10 @@ class LimitedMemoryBfgs(QuasiNewtonSolver):
     begin_with: Literal["identity", "laplacian"] = parameter("identity", "metric that the remembered steps correct")
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
 
+    def prepare(self, problem: Problem) -> None:
+        if self.begin_with == "laplacian":
+            problem.workspace.laplacian.prepare()
+
     def initial(self, problem: Problem, gradient: Floats) -> Floats:
         return -direction_in_laplacian(problem, gradient) if self.begin_with == "laplacian" else gradient.copy()
 

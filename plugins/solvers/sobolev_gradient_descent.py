@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 from workbench.api import (
     SAFETY,
-    DescentSolver,
     Evaluation,
     Interrupt,
+    LaplacianDescentSolver,
     Problem,
     State,
     descend,
@@ -19,7 +19,7 @@ from workbench.api import (
 
 
 @dataclass(frozen=True)
-class SobolevGradientDescent(DescentSolver):
+class SobolevGradientDescent(LaplacianDescentSolver):
     """Gradient descent with the Dirichlet energy of the source as metric: factored once, two solves a step.
 
     With Armijo's rule below the largest step without inversion; each step first tries `growth` times the accepted length

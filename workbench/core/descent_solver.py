@@ -53,6 +53,14 @@ class DescentSolver(Solver):
             return replace(state, status=Status.SINGULAR)
 
 
+class LaplacianDescentSolver(DescentSolver):
+    """A descent method whose metric is the source's Laplacian: no Newton system is made unless anchors move."""
+
+    def prepare(self, problem: Problem) -> None:
+        """See `Solver.prepare`."""
+        problem.workspace.laplacian.prepare()
+
+
 def direction_in_metric(problem: Problem, values: Floats, gradient: Floats, shifts: tuple[float, ...] = SHIFTS) -> Floats:
     """-K^-1 gradient for K given on the pattern: one factorisation, hard anchors eliminated, along A x = const.
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
 from workbench.core.element_kernels import derivatives_2d, derivatives_3d, energy_2d, energy_3d
 from workbench.core.jacobians import Elements, determinants
@@ -50,8 +50,20 @@ class Energy:
         """Built when first asked for and shared by every energy on these elements."""
         if "pattern" not in self._shared:
             e = self.elements
-            self._shared["pattern"] = build_pattern(e.simplices, e.vertex_count, e.dimension)
+            self._shared["pattern"] = build_pattern(e.simplices, e.vertex_count, e.dimension, self._known_order)
         return self._shared["pattern"]
+
+    @property
+    def scalar_pattern(self) -> HessianPattern:
+        """The pattern of one coordinate in the same order of elimination; built when first asked for and shared."""
+        if "scalar" not in self._shared:
+            e = self.elements
+            self._shared["scalar"] = build_pattern(e.simplices, e.vertex_count, 1, self._known_order)
+        return self._shared["scalar"]
+
+    @property
+    def _known_order(self) -> Integers | None:
+        return next((pattern.order for pattern in self._shared.values()), None)
 
     def with_distortion(self, distortion: Distortion, allow_inversions: bool) -> Energy:
         """The same source with another density: elements and pattern are shared."""

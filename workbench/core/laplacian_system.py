@@ -12,7 +12,7 @@ from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.jacobians import Elements
 from workbench.core.linear_solver import SingularMatrixError
 from workbench.core.newton_system import NewtonSystem
-from workbench.core.pattern import build_pattern
+from workbench.core.pattern import HessianPattern
 
 
 class LaplacianSystem:
@@ -25,13 +25,12 @@ class LaplacianSystem:
     Parameters
     ----------
     elements : Elements
-    order : (N,) int64                  vertices in the order of elimination, where one is known already
+    pattern : HessianPattern            of one coordinate
     simplex_weights : (m,) float64      w; the rest measures where None
     """
 
-    def __init__(self, elements: Elements, order: Integers | None = None, simplex_weights: Floats | None = None) -> None:
+    def __init__(self, elements: Elements, pattern: HessianPattern, simplex_weights: Floats | None = None) -> None:
         self.dimension = elements.dimension
-        pattern = build_pattern(elements.simplices, elements.vertex_count, 1, order)
         weights = elements.rest_measures if simplex_weights is None else simplex_weights
         hats = elements.hat_gradients
         first, second = np.triu_indices(hats.shape[1])
@@ -64,6 +63,10 @@ class LaplacianSystem:
             vector = self._pattern.multiply(self._bare, vector / np.sqrt(vector @ vector))
             size = float(np.sqrt(vector @ vector))
         return size
+
+    def prepare(self) -> None:
+        """Make the symbolic analysis."""
+        self._system.solver  # noqa: B018
 
     def serve(self, anchors: Anchors) -> None:
         """Factorise for these anchors, unless the last factor has the same held vertices and weights.

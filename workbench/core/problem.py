@@ -64,7 +64,7 @@ class Workspace:
     def laplacian(self) -> LaplacianSystem:
         """The Laplacian of the source, made when first asked for; its factor outlives distortions and targets."""
         if self._laplacian is None:
-            self._laplacian = LaplacianSystem(self._energy.elements, self._energy.pattern.order)
+            self._laplacian = LaplacianSystem(self._energy.elements, self._energy.scalar_pattern)
         return self._laplacian
 
     @property

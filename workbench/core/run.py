@@ -121,7 +121,7 @@ def run(
     problem = problem.with_criteria(Criteria(tolerance, gradient_tolerance)).from_start(positions)
     begin = time.perf_counter()
     state = initial = solver.init(problem, positions)
-    problem.system.solver  # noqa: B018  the symbolic analysis belongs to the set-up
+    solver.prepare(problem)
     setup = time.perf_counter() - begin
     before = problem.workspace.all_seconds()
     rows: list[HistoryRow] = []

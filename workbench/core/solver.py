@@ -63,6 +63,10 @@ class Solver(Method, ABC):
             return replace(state, status=Status.NONFINITE)
         return state
 
+    def prepare(self, problem: Problem) -> None:
+        """Make what steps need once a mesh, so that it counts as set-up: here the Newton system's symbolic analysis."""
+        problem.system.solver  # noqa: B018
+
     @abstractmethod
     def step(self, problem: Problem, state: State, interrupt: Interrupt = never) -> State:
         """One accepted iterate of (62). Changes none of its inputs.
