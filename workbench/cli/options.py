@@ -67,11 +67,16 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
 
 def add_solve_options(parser: argparse.ArgumentParser) -> None:
     """Everything that describes one solve but its outputs."""
+    add_problem_options(parser)
+    parser.add_argument("--solver", default="projected-newton", metavar="ID", help="default: projected-newton")
+
+
+def add_problem_options(parser: argparse.ArgumentParser) -> None:
+    """What is minimised, from which start, until when."""
     add_source_options(parser)
     add = parser.add_argument
     add("--distortion", default="symmetric-dirichlet", metavar="ID|FORMULA", help="default: symmetric-dirichlet")
     add_set_option(parser, "the distortion, the solver or the initializer, the first that has it")
-    add("--solver", default="projected-newton", metavar="ID", help="default: projected-newton")
     add("--init", metavar="ID|FILE", help="start: an initializer, or a map in a file (default: rest; surfaces: tutte)")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
     add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")

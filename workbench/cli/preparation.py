@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,35 +28,57 @@ from workbench.io.anchors import read_anchors
 from workbench.io.opening import OpenedSource, open_source
 
 
-@dataclass(frozen=True, eq=False)
-class Prepared:
-    """A problem ready to be solved, and how long the parts of getting there took."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PreparedProblem:
+    """A problem with its start, and how long the parts of getting there took."""
 
     path: str
     opened: OpenedSource
     problem: Problem
-    solver: Solver
     initializer: str
     start: Floats
     seconds: dict[str, float] = field(default_factory=dict)
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Prepared(PreparedProblem):
+    """A problem ready to be solved by `solver`."""
+
+    solver: Solver
+
+
 def prepare(options: argparse.Namespace) -> Prepared:
     """Read the mesh, resolve the methods, make the start. Raises `WorkbenchError` for whatever does not fit."""
+    method = registry().solver(options.solver)
+    given, values = prepare_problem(options, options.file, (method,))
+    solver = configured(method, values, options.seed)
+    with _timed(given.seconds, "compile"):
+        compile_kernels(given.problem, solver)
+    return Prepared(**vars(given), solver=solver)
+
+
+def prepare_problem(
+    options: argparse.Namespace, file: str, methods: Sequence[type[Solver]]
+) -> tuple[PreparedProblem, dict[str, str]]:
+    """The problem of a mesh file for these solvers, with its start, and the settings that are left for the solvers.
+
+    Raises `WorkbenchError` for whatever does not fit.
+    """
     seconds: dict[str, float] = {}
     with _timed(seconds, "read"):
-        opened = open_source(options.file, kind=options.map, fixes=options.fixes, tets=options.tets)
+        opened = open_source(file, kind=options.map, fixes=options.fixes, tets=options.tets)
     if options.repair not in ("auto", "none"):
         raise WorkbenchError(f"There is no repair {options.repair!r}; there are: auto, none.")
-    method = registry().solver(options.solver)
-    if opened.kind not in method.kinds:
-        raise WorkbenchError(f"{method.label} does not solve {opened.kind} maps; choose another solver.")
+    for method in methods:
+        if opened.kind not in method.kinds:
+            raise WorkbenchError(f"{method.label} does not solve {opened.kind} maps; choose another solver.")
     initializer, start_file = _initializer(options.init, opened)
     starter = registry().initializer(initializer)
-    for_distortion, for_solver, for_start = assign(options.settings, options.distortion, (method, starter))
+    for_distortion, for_solvers, for_start = assign(options.settings, options.distortion, (methods, (starter,)))
     distortion = Distortion.resolve(options.distortion, for_distortion)
-    method.check_distortion(distortion)
-    solver = method.configured({**_seed(method, options.seed), **for_solver})
+    for method in methods:
+        method.check_distortion(distortion)
+        configured(method, for_solvers, options.seed)
     problem = Problem.create(
         opened.mesh,
         opened.kind,
@@ -66,9 +88,17 @@ def prepare(options: argparse.Namespace) -> Prepared:
     )
     with _timed(seconds, "start"):
         start = _start(opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
-    with _timed(seconds, "compile"):
-        compile_kernels(problem, solver)
-    return Prepared(str(options.file), opened, problem, solver, initializer, start, seconds)
+    given = PreparedProblem(
+        path=str(file), opened=opened, problem=problem, initializer=initializer, start=start, seconds=seconds
+    )
+    return given, for_solvers
+
+
+def configured(method: type[Solver], values: Mapping[str, Any], seed: int) -> Solver:
+    """The solver with those of `values` that it has, and the seed where it has one. Raises `WorkbenchError`."""
+    names = {item.name for item in method.parameters()}
+    own = {name: value for name, value in values.items() if name in names}
+    return method.configured({**_seed(method, seed), **own})
 
 
 def _initializer(text: str | None, opened: OpenedSource) -> tuple[str, str]:

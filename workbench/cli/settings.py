@@ -43,9 +43,9 @@ def distortion_parameters(text: str) -> tuple[str, ...]:
 
 
 def assign(
-    settings: Iterable[tuple[str, str]], distortion: str, methods: Sequence[type[Method]] = ()
+    settings: Iterable[tuple[str, str]], distortion: str, methods: Sequence[Sequence[type[Method]]] = ()
 ) -> tuple[dict[str, str], ...]:
-    """Settings of the distortion, then of each of `methods`: a name goes to the first that has it.
+    """Settings of the distortion, then of each group of `methods`: a name goes to the first group in which a method has it.
 
     Raises `WorkbenchError` for a name that none of them has, naming those that there are, and `FormulaError` for a name
     in a typed formula that is not set.
@@ -53,7 +53,7 @@ def assign(
     from workbench.core.formula_names import check_names, looks_like_id
     from workbench.core.registry import registry
 
-    forms = [distortion_parameters(distortion), *(tuple(p.name for p in method.parameters()) for method in methods)]
+    forms = [distortion_parameters(distortion), *(tuple(p.name for method in group for p in method.parameters()) for group in methods)]
     chosen: tuple[dict[str, str], ...] = tuple({} for _ in forms)
     for name, value in settings:
         owner = next((i for i, form in enumerate(forms) if name in form), None)
