@@ -18,6 +18,7 @@ from workbench.app.quantities import (
 )
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.range_fit import rounded_down, rounded_factor, rounded_up
+from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry
 
@@ -179,6 +180,18 @@ def test_one_range_a_quantity_and_formulas_join_the_book(qapp: object) -> None:
     assert formula.id in book
     with pytest.raises(WorkbenchError):
         book.add_formula("sigma1 +")
+
+
+def test_a_formula_that_is_redefined_takes_its_range_along(qapp: object) -> None:
+    book = QuantityBook()
+    own = [Distortion("mine", "Mine", "sum(sigma^2)")]
+    book.list_distortions(own, own=["mine"])
+    colour_range = book.range_of("mine")
+    assert book["mine"].group == "own" and colour_range.quantity.least == 0.0
+    book.list_distortions([Distortion("mine", "Mine", "7 + log(det)")], own=["mine"])
+    assert book.range_of("mine") is colour_range and colour_range.quantity.least is None
+    book.list_distortions([])
+    assert "mine" not in book and book.range_of("mine") is colour_range, "a view that shows it lives on"
 
 
 def test_parameters_are_read_from_text() -> None:

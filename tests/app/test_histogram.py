@@ -153,3 +153,24 @@ def test_the_ends_of_a_bar_are_edited_and_shared(bent: MainWindow, qtbot: QtBot)
     assert bent.target.view.surface._mapper.GetLookupTable().GetRange() == (1.1, 2.0)
     bar.range.hold(False)
     bent.set_target_style("plain")
+
+
+def test_the_distortion_in_force_is_followed(bent: MainWindow, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: bent.quantities.is_listed)
+    bent.maps[2].show_quantity("in-force")
+    bent.document.choose(distortion="t*sum(sigma^2)", distortion_parameters={"t": 2.0})
+    field = bent.maps[2].range.quantity.field
+    assert field == "t*sum(sigma^2) [t=2]" and "t*sum(sigma^2)" in bent.maps[2].windowTitle()
+    qtbot.waitUntil(lambda: field in bent.document.snapshot.fields)
+    bent.document.choose(distortion="mips", distortion_parameters={})
+    qtbot.waitUntil(lambda: "mips" in bent.document.snapshot.fields)
+    assert bent.maps[2].range.low == pytest.approx(2.0), "it begins where the new one does"
+    bent.maps[2].show_quantity("symmetric-dirichlet")
+
+
+def test_a_held_range_says_so(bent: MainWindow) -> None:
+    dock = bent.maps[0]
+    dock.range.hold(True)
+    assert "held" in dock.legend.numbers.note()
+    dock.range.hold(False)
+    assert "held" not in dock.legend.numbers.note()

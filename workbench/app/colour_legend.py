@@ -95,7 +95,9 @@ class ColourLegend(QWidget):
         self._show_numbers()
 
     def _show_numbers(self) -> None:
-        self.numbers.show_parts(self._parts, note_of(self.bar.range) if self._parts else "")
+        held = ("held",) if self.bar.range.is_locked else ()
+        note = note_of(self.bar.range) if self._parts else ""
+        self.numbers.show_parts(self._parts, ", ".join((*held, *filter(None, (note,)))))
 
 
 def note_of(colour_range: ColourRange) -> str:

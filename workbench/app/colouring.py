@@ -38,6 +38,8 @@ class Colouring(QObject):
         self._panels = list(panels)
         book.range_changed.connect(self._range_changed)
         document.opened.connect(self._forget)
+        document.session_changed.connect(self._take_choice)
+        book.listed.connect(self._take_choice)
         for panel in self._panels:
             panel.quantity_changed.connect(self.watch)
             panel.visibilityChanged.connect(lambda _: self.watch())
@@ -65,9 +67,10 @@ class Colouring(QObject):
     def take(self, snapshot: Snapshot) -> None:
         """Fit the ranges of what is shown to a map."""
         for id in self.shown():
-            values = snapshot.fields.get(id)
+            colour_range = self._book.range_of(id)
+            values = snapshot.fields.get(colour_range.quantity.field)
             if values is not None:
-                self._book.range_of(id).take(values)
+                colour_range.take(values)
 
     def apply(self, pane: ViewPane) -> None:
         """Give a view the colours of its style; a new mesh has none yet."""
@@ -85,10 +88,18 @@ class Colouring(QObject):
         if snapshot is None or surface is None:
             return
         style = self._styles[pane]
-        values = None if style in PATTERNS else snapshot.fields.get(style)
+        values = None if style in PATTERNS else snapshot.fields.get(self._book.range_of(style).quantity.field)
         surface.set_values(values, snapshot.inverted)
         if values is not None:
             pane.legend.show_values(values)
+
+    def _take_choice(self) -> None:
+        """The distortion in force may be another one. Before the methods are found there is nothing to look it up in."""
+        if not self._book.is_listed:
+            return
+        session = self._document.session
+        self._book.set_in_force(session.distortion, session.distortion_parameters)
+        self.watch()
 
     def _forget(self) -> None:
         for colour_range in self._book.ranges():

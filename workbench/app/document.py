@@ -233,7 +233,7 @@ class Document(QObject):
     def watch(self, owner: str, quantities: Iterable[Quantity] = (), singular_values: bool = False) -> None:
         """Say what `owner` (a view, by a name of its own) wants to see of each map, in place of what it wanted before.
 
-        Snapshots carry what any owner wants: `Snapshot.fields[quantity.id]`, and `Snapshot.singular_values`. One with the
+        Snapshots carry what any owner wants: `Snapshot.fields[quantity.field]`, and `Snapshot.singular_values`. One with the
         new fields comes at once, also while the solver rests. Nothing wanted any longer: call it with the owner alone.
         """
         wanted = tuple(quantity.measure for quantity in quantities)
@@ -245,6 +245,10 @@ class Document(QObject):
         if watched != self._watched:
             self._watched = watched
             self._bridge.post(watched)
+
+    def watch_again(self) -> None:
+        """The same as before, though a formula by the same name may be another one now."""
+        self._bridge.post(self._watched)
 
     # ------------------------------------------------------------------------------------------ choices
 

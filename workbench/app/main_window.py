@@ -179,6 +179,7 @@ class MainWindow(QMainWindow):
         self.document.history_restarted.connect(self._restart_history)
         self.document.opened.connect(lambda: self.histogram.set_mesh(self.document.mesh))
         self.histogram.redraw_wanted.connect(self.turns.all_stale)
+        self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_quantities())
 
     # ------------------------------------------------------------------------------------------ showing
 
@@ -209,6 +210,14 @@ class MainWindow(QMainWindow):
         if self.document.snapshot is not None:
             self.histogram.show_snapshot(self.document.snapshot)
 
+    def _list_quantities(self) -> None:
+        """The distortions that there are now, formulas of one's own among them."""
+        from workbench.core.registry import registry
+
+        found = registry()
+        self.quantities.list_distortions(found.distortions.values(), found.own_formulas)
+        self.document.watch_again()
+
     def _methods_found(self, registry: Any) -> None:
         self.panel.set_registry(registry)
         self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_methods(_find_methods()))
@@ -216,7 +225,7 @@ class MainWindow(QMainWindow):
         self.reporter.show_plugin_failures(registry)
 
     def _list_methods(self, registry: Any) -> None:
-        self.quantities.list_distortions(registry.distortions.values())
+        self._list_quantities()
         self.inspector.set_registry(registry)
 
     def _apply_theme(self, theme: Theme) -> None:

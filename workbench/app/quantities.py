@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,8 +15,9 @@ from workbench.core.measure import DESCRIPTORS, Measure
 
 @dataclass(frozen=True)
 class Quantity:
-    """A field that snapshots carry: id in `Snapshot.fields`, words for the title, smallest possible value.
+    """Something that views show of each simplex: what it is, words for the title, smallest possible value.
 
+    `text` with `parameters` is the measure, where the id is not; `field` is its name in `Snapshot.fields`.
     `least` is None where there is no smallest value: colours then begin where the values do. `centre` is the value that
     stands for no distortion, with different colours on its two sides. `least_span` is the narrowest range of colours:
     below it differences are not worth a colour. `group` parts the lists.
@@ -38,6 +39,11 @@ class Quantity:
     def measure(self) -> Measure:
         """What the engine computes for it."""
         return Measure(self.text or self.id, self.parameters)
+
+    @property
+    def field(self) -> str:
+        """Name of its values in `Snapshot.fields`."""
+        return self.measure.id
 
     @property
     def title(self) -> str:
@@ -67,6 +73,11 @@ FACTORS: tuple[Quantity, ...] = (
 )
 """Factors of length and area: below and above 1 are told apart, a half as far from it as twice."""
 
+IN_FORCE = Quantity(
+    "in-force", "In force", "", "The distortion that is minimised now", 4.0, text="symmetric-dirichlet", group="in force"
+)
+"""Follows the choice of the distortion and its parameters."""
+
 
 def quantity_of_distortion(item: Distortion, group: str = "distortions") -> Quantity:
     """A registered distortion with its default parameters."""
@@ -91,7 +102,19 @@ def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None
         centre=centre,
         parameters=measure.parameters,
         text=text,
-        group="formulas",
+        group="typed",
+    )
+
+
+def quantity_in_force(text: str, parameters: Mapping[str, float]) -> Quantity:
+    """The distortion that is minimised, whichever it is. Raises `WorkbenchError` where the text is none."""
+    item = Distortion.resolve(text, dict(parameters))
+    least, centre = _sides(item)
+    measure = Measure.of(text, parameters)
+    words = item.short or item.label
+    label = f"{IN_FORCE.label}: {words if len(words) <= 40 else words[:39] + '…'}"
+    return replace(
+        IN_FORCE, label=label, formula=item.formula, least=least, centre=centre, parameters=measure.parameters, text=text
     )
 
 

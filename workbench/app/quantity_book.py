@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from functools import partial
 
 from PySide6.QtCore import QObject, Signal
@@ -10,8 +10,10 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.colour_range import ColourRange
 from workbench.app.quantities import (
     FACTORS,
+    IN_FORCE,
     LIVE_QUANTITIES,
     Quantity,
+    quantity_in_force,
     quantity_of_distortion,
     quantity_of_formula,
 )
@@ -27,9 +29,11 @@ class QuantityBook(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._quantities: dict[str, Quantity] = {q.id: q for q in (*LIVE_QUANTITIES, *FACTORS)}
+        self._quantities: dict[str, Quantity] = {q.id: q for q in (IN_FORCE, *LIVE_QUANTITIES, *FACTORS)}
         self._ranges: dict[str, ColourRange] = {}
         self._holds_all = False
+        self._chosen: tuple[str, dict[str, float]] | None = None
+        self.is_listed = False
 
     def __contains__(self, id: object) -> bool:
         return id in self._quantities
@@ -53,23 +57,52 @@ class QuantityBook(QObject):
     def ranges(self) -> tuple[ColourRange, ...]:
         return tuple(self._ranges.values())
 
-    def list_distortions(self, items: Iterable[Distortion]) -> None:
-        """Offer these registered distortions; those that were offered before and are gone go."""
-        kept = {id: q for id, q in self._quantities.items() if q.group in ("live", "factors")}
+    def list_distortions(self, items: Iterable[Distortion], own: Container[str] = ()) -> None:
+        """Offer these registered distortions, those whose ids are in `own` by themselves; others offered before go."""
+        fixed = {id: q for id, q in self._quantities.items() if q.group in ("in force", "live", "factors")}
         offered = []
         for item in items:
-            if item.id in kept:
+            if item.id in fixed:
                 continue
             try:
-                offered.append(quantity_of_distortion(item))
+                offered.append(quantity_of_distortion(item, "own" if item.id in own else "distortions"))
             except WorkbenchError:
                 continue  # not one of the plane
-        formulas = {id: q for id, q in self._quantities.items() if q.group == "formulas"}
-        self._quantities = kept | {q.id: q for q in sorted(offered, key=lambda q: q.label.lower())} | formulas
-        for id, colour_range in self._ranges.items():
+        offered.sort(key=lambda q: (q.group, q.label.lower()))
+        typed = {id: q for id, q in self._quantities.items() if q.group == "typed"}
+        self._quantities = fixed | {q.id: q for q in offered} | typed
+        for id in self._ranges:
             if id in self._quantities:
-                colour_range.quantity = self._quantities[id]  # a formula of one's own may have been changed
+                self._redefine(self._quantities[id])  # a formula of one's own may have been changed
+        self.is_listed = True
+        self._chosen = None
         self.listed.emit()
+
+    def set_in_force(self, text: str, parameters: Mapping[str, float]) -> None:
+        """The distortion that is minimised is another one, or has other parameters."""
+        chosen = (text, dict(parameters))
+        if chosen == self._chosen:
+            return
+        self._chosen = chosen
+        try:
+            quantity = quantity_in_force(text, parameters)
+        except WorkbenchError:
+            return  # whoever chose it is told
+        if quantity != self._quantities[IN_FORCE.id]:
+            is_other = quantity.title != self._quantities[IN_FORCE.id].title
+            self._quantities[IN_FORCE.id] = quantity
+            if IN_FORCE.id in self._ranges:
+                self._redefine(quantity)
+            if is_other:
+                self.listed.emit()
+
+    def _redefine(self, quantity: Quantity) -> None:
+        """The same id stands for something else: its range keeps what the user chose, and is fitted anew."""
+        colour_range = self._ranges[quantity.id]
+        if colour_range.quantity != quantity:
+            colour_range.quantity = quantity
+            colour_range.forget()
+            colour_range.changed.emit()
 
     def add_formula(self, text: str, parameters: Mapping[str, float] | None = None) -> Quantity:
         """Offer a typed formula, too. Raises `WorkbenchError` where it is none."""

@@ -58,7 +58,7 @@ class QuantityChooser(QComboBox):
         self.view().setMinimumWidth(self.view().sizeHintForColumn(0) + 24)
 
     def show_choice(self, id: str) -> None:
-        """Show what is chosen, without telling anyone."""
+        """Show what is chosen, without telling anyone; what is no longer offered stands there as an empty line."""
         self.current = id
         self.setCurrentIndex(self.findData(id))
         self.setToolTip(str(self.currentData(Qt.ItemDataRole.ToolTipRole) or ""))

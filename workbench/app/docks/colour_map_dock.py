@@ -75,6 +75,7 @@ class ColourMapDock(QDockWidget):
 
     def _range_changed(self, id: str) -> None:
         if id == self.quantity:
+            self.setWindowTitle(self.range.quantity.title)
             self._apply_range()
 
     def _apply_range(self) -> None:
@@ -85,7 +86,7 @@ class ColourMapDock(QDockWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Take the colours of a map; the points were written already."""
-        values = snapshot.fields.get(self.quantity)
+        values = snapshot.fields.get(self.range.quantity.field)
         if self.view.surface is None or values is None:
             return
         self.view.points_changed()

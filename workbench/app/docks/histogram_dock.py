@@ -159,7 +159,7 @@ class HistogramDock(QDockWidget):
             item.setOpts(x0=[0.0], x1=[1.0], height=[0.0])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        values = snapshot.fields.get(self.quantity)
+        values = snapshot.fields.get(self.range.quantity.field)
         if values is None or not len(values):
             return
         low, high, logarithmic = self.range.low, self.range.high, self.range.is_logarithmic
