@@ -24,6 +24,7 @@ SHORTCUTS = """
 <tr><td>Delete</td><td>remove the selected anchor</td></tr>
 <tr><td>Esc</td><td>clear the brush</td></tr>
 <tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>
+<tr><td>Ctrl+I</td><td>inspector: formula, properties and plots of the distortion</td></tr>
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
 </table>

@@ -16,6 +16,8 @@ def style_sheet(theme: Theme) -> str:
     QLabel#form-error {{ color: {"#ff8a80" if theme.is_dark else "#b3261e"}; }}
     QGroupBox {{ border: 1px solid {theme.border}; border-radius: 5px; margin-top: 9px; padding-top: 6px; }}
     QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {theme.text}; font-weight: 600; }}
+    QCheckBox::indicator:unchecked, QListView::indicator:unchecked {{ border: 1px solid {theme.faint};
+        border-radius: 2px; background: {theme.base}; width: 12px; height: 12px; }}
     QStatusBar {{ border-top: 1px solid {theme.border}; }}
     QStatusBar::item {{ border: 0; }}
     QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}

@@ -50,7 +50,7 @@ def decade_marks(low: float, high: float, most: int) -> list[float]:
 
 def short_number(value: float) -> str:
     """Four digits where the number is of ordinary size, else a power of ten."""
-    if 1e-3 <= value < 1e5:
+    if 1e-3 <= value < 1e4:
         return f"{value:.4g}"
     text = f"{value:.1e}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
     return text.replace(".0e", "e")

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from workbench.app.inspector.badges import Badges
@@ -22,6 +22,8 @@ from workbench.core.formula import names_in_formula
 from workbench.core.registry import Registry
 from workbench.core.typeset import latex_terms
 
+REST = 300
+"""Milliseconds without a change after which the properties are looked for: a slider does not wait for them."""
 KEPT = 64
 """Analyses that are kept, for coming back to."""
 Analyser = Callable[[Distortion, int], Any]
@@ -41,6 +43,10 @@ class FormulaPage(Page):
         super().__init__(subject, parent)
         self._analyser = analyser
         self._analyses: OrderedDict[Key, Any] = OrderedDict()
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(REST)
+        self._rest.timeout.connect(self._ask)
         self._latest = Latest(self)
         self._latest.done.connect(self._take_analysis)
         self._latest.failed.connect(self._analysis_failed)
@@ -76,6 +82,7 @@ class FormulaPage(Page):
         super().set_theme(theme)
 
     def wait(self) -> None:
+        self._rest.stop()
         self.picture.wait()
         self._latest.wait()
 
@@ -84,6 +91,7 @@ class FormulaPage(Page):
     def refresh(self) -> None:
         item, registry = self.subject.distortion, self.subject.registry
         if item is None or registry is None:
+            self._rest.stop()
             self._show_nothing()
             return
         self.picture.show_formula(formula_lines(item, registry), f"D = {item.formula}")
@@ -94,7 +102,7 @@ class FormulaPage(Page):
         notes = {p.name: p.description for p in item.parameters}
         lines = [f"<b>{name} = {value:g}</b> {notes[name]}" for name, value in values.items()]
         self._show(self.parameters, "<br>".join(lines))
-        self._show_badges(item)
+        self._show_badges()
 
     def _show_nothing(self) -> None:
         self.picture.show_formula((), "")
@@ -109,15 +117,23 @@ class FormulaPage(Page):
 
     # ------------------------------------------------------------------------------------------ badges
 
-    def _show_badges(self, item: Distortion) -> None:
+    def _show_badges(self) -> None:
         self.text.show()
         key = self.subject.key
         if key in self._analyses:
+            self._rest.stop()
             self._analyses.move_to_end(key)
             self.badges.show_analysis(self._analyses[key])
             return
         self.badges.say("Looking at its properties…")
-        self._latest.ask(partial(_answer, self._analyser, item, key))
+        self._rest.start()
+
+    def _ask(self) -> None:
+        item = self.subject.distortion
+        if item is not None and self.isVisible():
+            self._latest.ask(partial(_answer, self._analyser, item, self.subject.key))
+        elif item is not None:
+            self._is_stale = True
 
     def _take_analysis(self, answer: tuple[Key, Any, str]) -> None:
         key, analysis, sentence = answer

@@ -28,6 +28,7 @@ from workbench.app.inspector.page import Page
 from workbench.app.inspector.plane_page import PlanePage
 from workbench.app.inspector.star_page import StarPage
 from workbench.app.inspector.subject import Subject
+from workbench.app.panels.distortion_box import title_of
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
@@ -75,9 +76,8 @@ class Heading(Page):
         if item is None:
             self.name.setText("")
             return
-        is_short_said = not item.short or item.short in item.label
-        self.name.setText(item.label if is_short_said else f"{item.label} ({item.short})")
-        self.name.setToolTip(self.name.text())
+        self.name.setText("Typed formula" if item.id == item.formula else title_of(item))
+        self.name.setToolTip(item.formula)
 
     def _choose_dimension(self) -> None:
         self.subject.dimension = self.dimension.currentData()

@@ -26,6 +26,9 @@ class PathPage(Page):
         self.sentence = QLabel("", self)
         self.sentence.setWordWrap(True)
         self.sentence.setContentsMargins(8, 3, 8, 4)
+        # room for two lines always: the picture must not jump under the hand that drags in it
+        self.sentence.setMinimumHeight(2 * self.fontMetrics().lineSpacing() + 8)
+        self.sentence.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.path: Any = None
         self._latest = Latest(self)
         self._latest.done.connect(self._take)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Signal
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
@@ -29,6 +30,7 @@ class PathPlot(pg.PlotWidget):  # type: ignore[misc]
         calm(item, self)
         item.showGrid(x=False, y=True, alpha=0.15)
         self._legend = item.addLegend(offset=(8, 4), labelTextSize="8pt", verSpacing=-4)
+        self._legend.setZValue(20)
         self.curves = [item.plot([], [], name=name) for name in names]
         for depth, curve in enumerate(reversed(self.curves)):
             curve.setZValue(depth)  # the first lies above: where all are one it is the one to be seen
@@ -47,6 +49,9 @@ class PathPlot(pg.PlotWidget):  # type: ignore[misc]
         item.setLabel("bottom", self._labels[0], color=theme.text)
         item.setLabel("left", self._labels[1], color=theme.text)
         self._legend.setLabelTextColor(theme.text)
+        paper = QColor(theme.view)
+        paper.setAlpha(215)
+        self._legend.setBrush(paper)
         for curve, colour in zip(self.curves, colours, strict=True):
             curve.setPen(pg.mkPen(colour, width=2))
         for sample, label in self._legend.items:

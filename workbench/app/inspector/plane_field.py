@@ -119,7 +119,7 @@ def colour_ends(values: Floats, is_logarithmic: bool, usual: float = 0.0) -> tup
         if 0.0 < usual < math.inf:
             high = min(high, max(ABOVE * usual, 10.0 * low))
             low = max(low, min(BELOW * usual, 0.1 * high))
-        low = max(low, BELOW * BELOW * high)
+        low = max(low, BELOW * high)
         return low, max(high, low * 1.05)
     return low, max(high, low + 1e-3 * max(abs(low), 1e-3))
 

@@ -23,6 +23,8 @@ from workbench.core.distortion import Distortion
 ORIGIN = "inspector"
 """Who brushes, and who watches."""
 MOST_POINTS = 20_000
+MOST_TESTS = 2_000_000
+"""Points times corners of an outline that are tested while the hand still draws it."""
 REST = 40
 """Milliseconds after a change of the region before it is sampled."""
 REACH = 8.0
@@ -92,8 +94,8 @@ class PlanePage(Page):
 
     def showEvent(self, event: QShowEvent) -> None:
         self._document.watch(ORIGIN, (), singular_values=True)
+        self._is_stale = True  # the map went on meanwhile
         super().showEvent(event)
-        self.draw_points()
 
     def hideEvent(self, event: QHideEvent) -> None:
         self._document.watch(ORIGIN)
@@ -113,7 +115,7 @@ class PlanePage(Page):
     def refresh(self) -> None:
         n = self.subject.dimension
         self.plot.set_names("σ₁", "σ₂" if n == 2 else "σ₃")
-        self._say_what()
+        self.draw_points()
         if self.subject.distortion is None:
             self._sampled = self.subject.key
             self.plot.show_field(None)
@@ -168,7 +170,7 @@ class PlanePage(Page):
         """Take the simplices of the newest map."""
         snapshot = self._document.snapshot
         values = None if snapshot is None else snapshot.singular_values
-        if snapshot is None or values is None:
+        if snapshot is None or values is None or values.shape[1] != self.subject.dimension:
             self._places, self._inverted = np.empty((0, 2)), np.empty(0, bool)
         else:
             size = np.abs(values[:, [0, -1]]).astype(np.float64)
@@ -194,6 +196,8 @@ class PlanePage(Page):
             parts.append(f"{MOST_POINTS:,} of {count:,} simplices are drawn, all are chosen from.")
         elif count:
             parts.append(f"{count:,} simplices. Drag to mark some, wheel zooms, double click fits.")
+        elif self._document.mesh is not None and self._document.mesh.dimension != self.subject.dimension:
+            parts.append(f"The simplices of this map have {self._document.mesh.dimension} singular values: not shown here.")
         else:
             parts.append("Simplices appear here with the first map.")
         if self._inverted.any():
@@ -204,6 +208,8 @@ class PlanePage(Page):
 
     def _choose_inside(self, corners: Floats, is_done: bool) -> None:
         self.plot.show_outline(None if is_done else corners)
+        if not is_done and len(self._places) * len(corners) > MOST_TESTS:
+            return
         if len(self._places) and len(corners) > 2:
             self._brush.brush(np.flatnonzero(inside(self._places, corners)), ORIGIN)
 

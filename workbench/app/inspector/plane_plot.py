@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 
 import numpy as np
 import pyqtgraph as pg
@@ -43,6 +44,7 @@ class PlanePlot(pg.GraphicsLayoutWidget):  # type: ignore[misc]
         self.plot.setAspectLocked(True)
         self.field: PlaneField | None = None
         self.is_logarithmic = True
+        self.seconds = 0.0  # that the last painting took
         self._image = pg.ImageItem()
         self._lines = pg.PlotCurveItem(connect="pairs")
         self._diagonal = pg.InfiniteLine(angle=45)
@@ -171,6 +173,11 @@ class PlanePlot(pg.GraphicsLayoutWidget):  # type: ignore[misc]
             self.pointed.emit(np.array([place.x(), place.y()]))
         else:
             self.pointed.emit(None)
+
+    def paintEvent(self, event: object) -> None:
+        began = time.perf_counter()
+        super().paintEvent(event)
+        self.seconds = time.perf_counter() - began
 
     def leaveEvent(self, event: object) -> None:
         super().leaveEvent(event)

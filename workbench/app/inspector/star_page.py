@@ -95,7 +95,8 @@ class StarPage(PathPage):
         self.plot.mark(float(pulled.offsets[row]), (energy, filtered), self._is_logarithmic)
         count = int(inverted.sum())
         told = "∞" if np.isinf(energy) else short_number(energy)
-        words = f"Vertex at {pulled.offsets[row]:.2f}: E = {told}"
+        words = "For triangles, n = 2. " if self.subject.dimension == 3 else ""
+        words += f"Vertex at {pulled.offsets[row]:.2f}: E = {told}"
         words += f", without the barrier {short_number(filtered)}" if energy != filtered else ""
         words += f"; {count} of {len(inverted)} triangles inverted." if count else "; no triangle is inverted."
         if not self._has_barrier():

@@ -102,13 +102,13 @@ class DistortionBox(QWidget):
             self._add_items([item for item in fitting if item.id in own])
         self.combo.blockSignals(False)
         words = dict.fromkeys(VARIABLES, "") | {f"{name}(": "" for name in FUNCTIONS}
-        self.edit.set_words(words | {id.replace("-", "_"): _title(item) for id, item in self._known.items()})
+        self.edit.set_words(words | {id.replace("-", "_"): title_of(item) for id, item in self._known.items()})
         self.edit.colours.set_distortions(id.replace("-", "_") for id in self._known)
         self.show_choice(self._current, self._values)
 
     def _add_items(self, items: list[Distortion]) -> None:
         for item in sorted(items, key=lambda item: item.label.lower()):
-            self.combo.addItem(_title(item), item.id)
+            self.combo.addItem(title_of(item), item.id)
             tip = "\n".join(text for text in (item.formula, item.description) if text)
             self.combo.setItemData(self.combo.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
 
@@ -291,6 +291,6 @@ class DistortionBox(QWidget):
         self.chosen.emit(self._current, values)
 
 
-def _title(item: Distortion) -> str:
+def title_of(item: Distortion) -> str:
     """Long name and short name, where it has one."""
     return f"{item.label} ({item.short})" if item.short and item.short not in item.label else item.label
