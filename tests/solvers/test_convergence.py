@@ -146,3 +146,31 @@ def test_the_characteristic_gradient_stops_where_asked(id: str) -> None:
     assert early.state.status is late.state.status is Status.CONVERGED
     assert 0 < early.state.iteration < late.state.iteration
     assert late.state.gradient_norm < 1e-2 * early.state.gradient_norm
+
+
+@solvers
+def test_an_interrupt_at_any_moment_returns_the_old_map(id: str) -> None:
+    """Whichever time a step asks for, from a start and from a map that it has memory of."""
+    solver = registry().solver(id)()
+    if solver.distortions:
+        pytest.skip(f"{id} minimises {solver.distortions} alone")
+    problem, start = problem_of("bumpy-disc", hard_and_soft("bumpy-disc"))
+    state = solver.init(problem, start)
+    for _ in range(6):
+        following = state
+        for moment in range(1, 400):
+            asked = [0]
+
+            def interrupt(moment: int = moment, asked: list[int] = asked) -> bool:
+                asked[0] += 1
+                return asked[0] == moment
+
+            following = solver.step(problem, state, interrupt)
+            if asked[0] < moment:
+                break
+            assert following.status is Status.INTERRUPTED
+            assert following.positions is state.positions
+            assert following.iteration == state.iteration
+        assert moment > 1
+        assert following.status is Status.RUNNING
+        state = following
