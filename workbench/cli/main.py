@@ -10,7 +10,7 @@ from pathlib import PurePath
 from typing import NoReturn
 
 from workbench import __version__
-from workbench.cli import check, doctor, formula, listing, measure, open_window, refine, signatures, solve
+from workbench.cli import check, compare, doctor, formula, listing, measure, open_window, refine, signatures, solve
 from workbench.core.errors import WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
@@ -21,6 +21,7 @@ COMMANDS = {
     "open": open_window,
     "list": listing,
     "solve": solve,
+    "compare": compare,
     "measure": measure,
     "formula": formula,
     "signatures": signatures,

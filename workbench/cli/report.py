@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
-from dataclasses import fields
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from workbench.core.jacobians import determinants, signed_singular_values
 from workbench.core.run import HistoryRow, RunResult
 from workbench.core.threads import thread_count
 from workbench.engine.doctor import versions
+from workbench.io.write import csv_text
 
 SCHEMA = 1
 
@@ -65,13 +65,4 @@ def build_report(prepared: Prepared, result: RunResult) -> dict[str, Any]:
 
 def history_text(rows: Iterable[HistoryRow]) -> str:
     """CSV of history rows, one an iteration; 17 significant digits; numbers that are not finite stay empty."""
-    names = [item.name for item in fields(HistoryRow)]
-    lines = [",".join(names)]
-    lines += [",".join(_cell(getattr(row, name)) for name in names) for row in rows]
-    return "\n".join(lines) + "\n"
-
-
-def _cell(value: float | int) -> str:
-    if isinstance(value, int):
-        return str(value)
-    return f"{value:.17g}" if math.isfinite(value) else ""
+    return csv_text(asdict(row) for row in rows)

@@ -53,7 +53,8 @@ def assign(
     from workbench.core.formula_names import check_names, looks_like_id
     from workbench.core.registry import registry
 
-    forms = [distortion_parameters(distortion), *(tuple(p.name for method in group for p in method.parameters()) for group in methods)]
+    names = (tuple(item.name for method in group for item in method.parameters()) for group in methods)
+    forms = [distortion_parameters(distortion), *names]
     chosen: tuple[dict[str, str], ...] = tuple({} for _ in forms)
     for name, value in settings:
         owner = next((i for i, form in enumerate(forms) if name in form), None)

@@ -120,6 +120,10 @@ class Race:
         """Turns until all are done; where interrupted, everyone ends with the map that it has."""
         while not interrupt() and self.advance(slice_seconds, interrupt) is not None:
             pass
+        self.stop()
+
+    def stop(self) -> None:
+        """Whoever still runs ends with the map that it has."""
         for racer in self.racers:
             racer.stop()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -33,6 +34,36 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
+
+
+@contextmanager
+def filling(folder: str | os.PathLike[str]) -> Iterator[Path]:
+    """A folder beside `folder` to write files into; when the block ends well they go to `folder`, which is made if need be.
+
+    Other files in `folder` stay. Raises `WorkbenchError` where that cannot be; then nothing has been written.
+    """
+    target = Path(os.path.realpath(folder))
+    part = target.with_name(f".{target.name[:80]}-{secrets.token_hex(4)}")
+    try:
+        if target.exists() and not target.is_dir():
+            raise WorkbenchError(f"{folder} is a file; name a folder to write into.")
+        if not target.parent.is_dir():
+            raise WorkbenchError(f"There is no folder {target.parent}; make it first, or name another place.")
+        part.mkdir()
+        yield part
+        if target.exists():
+            for file in sorted(path for path in part.rglob("*") if path.is_file()):
+                place = target / file.relative_to(part)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                os.replace(file, place)
+        else:
+            os.replace(part, target)
+    except PermissionError:
+        raise WorkbenchError(f"{folder} may not be written (permission denied); name another place.") from None
+    except OSError as error:
+        raise WorkbenchError(f"{folder} cannot be written: {error.strerror or error}.") from None
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:

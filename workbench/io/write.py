@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 from collections.abc import Callable, Iterable, Mapping
 from itertools import chain
@@ -163,3 +164,23 @@ def csv_line(cells: Iterable[object]) -> str:
     line = io.StringIO()
     csv.writer(line, lineterminator="\n").writerow(cells)
     return line.getvalue()
+
+
+def csv_text(rows: Iterable[Mapping[str, Any]]) -> str:
+    """CSV with the names of the first row as its header; 17 significant digits; what is not finite or not known stays empty."""
+    lines: list[str] = []
+    for row in rows:
+        if not lines:
+            lines.append(csv_line(row))
+        lines.append(csv_line(_cell(value) for value in row.values()))
+    return "".join(lines)
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return f"{value:.17g}" if math.isfinite(value) else ""
+    return str(value)
