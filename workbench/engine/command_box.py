@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from workbench.engine.messages import Command, SetAnchors, Step
+from collections.abc import Hashable
+
+from workbench.engine.messages import Command, Step
 
 
 class CommandBox:
-    """Commands that wait: of each class the newest, in order of arrival; step counts add up."""
+    """Commands that wait: of each slot the newest, in order of arrival; step counts add up."""
 
     def __init__(self) -> None:
-        self._waiting: dict[type[Command], Command] = {}
+        self._waiting: dict[Hashable, Command] = {}
 
     def put(self, command: Command) -> None:
-        kind = type(command)
-        earlier = self._waiting.pop(kind, None)
+        slot = command.slot
+        earlier = self._waiting.pop(slot, None)
         if isinstance(command, Step) and isinstance(earlier, Step):
             command = Step(command.count + earlier.count)
-        self._waiting[kind] = command
+        self._waiting[slot] = command
 
     def take_all(self) -> list[Command]:
         commands = list(self._waiting.values())
@@ -28,5 +30,5 @@ class CommandBox:
 
     @property
     def interrupts(self) -> bool:
-        """Whether something waits that a step gives way to; anchors do not interrupt a step."""
-        return any(kind is not SetAnchors for kind in self._waiting)
+        """Whether something waits that a step gives way to."""
+        return any(command.interrupts for command in self._waiting.values())

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -18,7 +19,15 @@ from workbench.core.status import Status
 
 
 class Command:
-    """Something the window asks for. Of each class the newest wins, except `Step`, whose counts add up."""
+    """Something the window asks for. Of those with one `slot` the newest wins, except `Step`, whose counts add up."""
+
+    interrupts: ClassVar[bool] = True
+    """Whether a step gives way to it."""
+
+    @property
+    def slot(self) -> Hashable:
+        """What it takes the place in of an earlier one: its class, unless a class says otherwise."""
+        return type(self).__name__
 
 
 @dataclass(frozen=True)
@@ -68,6 +77,8 @@ class SetAnchors(Command):
     `serial` is chosen by the sender (growing); `Snapshot.anchor_serial` tells which one a map has taken up.
     `dragging` is true while a hand holds one of them.
     """
+
+    interrupts: ClassVar[bool] = False
 
     vertices: Integers
     targets: Floats

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
-import signal
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,6 +10,7 @@ from multiprocessing.connection import Connection, wait
 
 import numpy as np
 
+from workbench.engine.child import begin_child
 from workbench.engine.command_box import CommandBox
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Progress, Ready, Report
@@ -64,14 +62,7 @@ class _Publisher:
 
 def engine_main(connection: Connection, corrector: Connection, spawned_at: float, threads: int) -> None:
     """Body of the child process; ends with `Quit`, or when the pipe breaks."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal is for the window
-    from workbench.core.memory import keep_freed_memory
-    from workbench.core.threads import set_thread_count
-
-    keep_freed_memory()
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-    if threads:
-        set_thread_count(threads)
+    begin_child(threads)
     box = CommandBox()
 
     def drain() -> None:
@@ -100,14 +91,6 @@ def engine_main(connection: Connection, corrector: Connection, spawned_at: float
     finally:
         connection.close()
         os._exit(0)  # threads of a plugin or of BLAS shall not keep the process
-
-
-def _end_with_parent() -> None:
-    """A step that hangs never sees that the pipe is broken; this does."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
 
 
 def warm_up(tell: Callable[[], None]) -> None:

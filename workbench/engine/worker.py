@@ -17,6 +17,7 @@ import numpy as np
 
 from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements
+from workbench.engine.child import WithoutMainModule, exit_words
 from workbench.engine.command_box import CommandBox
 from workbench.engine.command_sender import CommandSender
 from workbench.engine.corrector import SMALLEST, corrector_main
@@ -380,15 +381,17 @@ class EngineWorker:
         code = self._process.exitcode if self._process is not None else None
         if self._loading is not None:
             load, self._loading = self._loading, None
-            sentence = f"Reading {load.source} ended the engine process ({_how(code)}); the file may be too large or damaged."
+            sentence = (
+                f"Reading {load.source} ended the engine process ({exit_words(code)}); the file may be too large or damaged."
+            )
             self._report(Refused(load.generation, "Load", sentence))
         if self._crashes > 2 * CRASHES_IN_A_ROW:
-            raise WorkbenchError(f"its process ended {self._crashes} times in a row ({_how(code)})")
+            raise WorkbenchError(f"its process ended {self._crashes} times in a row ({exit_words(code)})")
         if self._crashes > CRASHES_IN_A_ROW:
             for kind in (SetProblem, SetSolver, Reset):
                 self._settings.pop(kind, None)
             self._running = None
-        sentence = f"The engine process ended unexpectedly ({_how(code)}); it was restarted on the last good map."
+        sentence = f"The engine process ended unexpectedly ({exit_words(code)}); it was restarted on the last good map."
         self._restart(sentence, resume=True)
 
     def _restart(self, sentence: str, *, resume: bool) -> None:
@@ -442,27 +445,3 @@ class EngineWorker:
         if self._ring is not None:
             self._ring.close()
             self._ring = None
-
-
-def _how(code: int | None) -> str:
-    if code is None:
-        return "no exit status"
-    if code < 0:
-        return "killed, perhaps out of memory" if code == -9 else f"signal {-code}"
-    return f"exit status {code}"
-
-
-class WithoutMainModule:
-    """Spawn without importing the caller's main module again in the child: it may be a script that opens a window."""
-
-    def __enter__(self) -> None:
-        import sys
-
-        self._module = sys.modules["__main__"]
-        self._saved = {key: getattr(self._module, key) for key in ("__file__", "__spec__") if hasattr(self._module, key)}
-        for key in self._saved:
-            setattr(self._module, key, None)
-
-    def __exit__(self, *details: object) -> None:
-        for key, value in self._saved.items():
-            setattr(self._module, key, value)
