@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import QObject
 
-from workbench.app.docks.colour_map_dock import ColourMapDock
-from workbench.app.docks.histogram_dock import HistogramDock
+from workbench.app.docks.quantity_dock import QuantityDock
 from workbench.app.document import Document
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.views.pane import ViewPane
@@ -18,9 +17,6 @@ OWNER = "views"
 """Name under which the views watch."""
 
 
-QuantityPanel = ColourMapDock | HistogramDock
-
-
 class Colouring(QObject):
     """The styles of the two views, the quantities of the panels, and their ranges."""
 
@@ -29,7 +25,7 @@ class Colouring(QObject):
         document: Document,
         book: QuantityBook,
         panes: Iterable[ViewPane],
-        panels: Iterable[QuantityPanel],
+        panels: Iterable[QuantityDock],
     ) -> None:
         super().__init__()
         self._document = document

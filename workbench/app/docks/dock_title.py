@@ -49,4 +49,3 @@ class DockTitle(QWidget):
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         event.ignore()  # the dock's own: it floats
-

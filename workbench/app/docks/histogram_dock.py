@@ -9,14 +9,13 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QDockWidget, QMenu, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QToolButton, QVBoxLayout, QWidget
 
 from workbench.app.docks.bin_brush import BinBrush
-from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
+from workbench.app.docks.quantity_dock import QuantityDock
 from workbench.app.quantities import CONFORMAL_FACTOR
 from workbench.app.quantity_book import QuantityBook
-from workbench.app.quantity_chooser import QuantityChooser
 from workbench.app.range_menu import fill_range_menu
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import BRUSH, Theme
@@ -32,22 +31,20 @@ SMALLEST_PART = 0.3
 """Where counts are logarithmic the axis begins at this part of the smallest bar that there can be."""
 
 
-class HistogramDock(QDockWidget):
+class HistogramDock(QuantityDock):
     """Bars over the quantity's colour range, in its colours; the part of the brushed simplices in that of the brush.
 
-    `quantity_changed` tells that it is another one; `redraw_wanted` that something but the map changed.
+    `redraw_wanted` tells that something but the map changed.
     """
 
-    quantity_changed = Signal()
     redraw_wanted = Signal()
 
     def __init__(self, book: QuantityBook, brush: SimplexBrush, theme: Theme, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        self._menu = QToolButton()
+        super().__init__(book, CONFORMAL_FACTOR.id, (self._menu,), parent)
         self.setObjectName("histogram")
-        self._book = book
         self._brush = brush
         self._theme = theme
-        self.range = book.range_of(CONFORMAL_FACTOR.id)
         self.is_weighted = False
         self.has_logarithmic_counts = False
         self.counts = np.zeros(0)
@@ -56,12 +53,8 @@ class HistogramDock(QDockWidget):
         self._mesh: Mesh | None = None
         self._areas: Floats | None = None
         self._make_plot()
-        self.chooser = QuantityChooser(book, self.quantity, parent=self)
-        self.chooser.chosen.connect(self.show_quantity)
-        self.setTitleBarWidget(DockTitle(self, self.chooser, self._menu_button()))
-        book.range_changed.connect(self._range_changed)
+        self._make_menu()
         brush.changed.connect(self._show_brush)
-        self.show_quantity(self.quantity)
         self.clear()
         self.set_theme(theme)
 
@@ -85,8 +78,8 @@ class HistogramDock(QDockWidget):
         layout.addWidget(self.plot)
         self.setWidget(body)
 
-    def _menu_button(self) -> QToolButton:
-        button = QToolButton(self)
+    def _make_menu(self) -> None:
+        button = self._menu
         button.setText("⋯")
         button.setToolTip("Weights, scales and range of the histogram")
         button.setAutoRaise(True)
@@ -95,7 +88,6 @@ class HistogramDock(QDockWidget):
         menu.aboutToShow.connect(partial(self._fill_menu, menu))
         button.setMenu(menu)
         button.setStyleSheet("QToolButton::menu-indicator { image: none; }")
-        return button
 
     def _fill_menu(self, menu: QMenu) -> None:
         menu.clear()
@@ -111,21 +103,6 @@ class HistogramDock(QDockWidget):
         fill_range_menu(menu, self.range, self)
 
     # ------------------------------------------------------------------------------------------ choices
-
-    @property
-    def quantity(self) -> str:
-        """Id of what is shown."""
-        return self.range.quantity.id
-
-    def show_quantity(self, id: str) -> None:
-        """Count another quantity; its values come with the next snapshot."""
-        self.range = self._book.range_of(id)
-        self.chooser.show_choice(id)
-        title = self.range.quantity.title
-        self.setWindowTitle(f"Histogram: {title}")
-        self.clear()
-        self.quantity_changed.emit()
-        self.redraw_wanted.emit()
 
     def set_weighted(self, weighted: bool) -> None:
         """Weigh simplices by their measure in the source, or count them."""
@@ -159,7 +136,7 @@ class HistogramDock(QDockWidget):
             item.setOpts(x0=[0.0], x1=[1.0], height=[0.0])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        values = snapshot.fields.get(self.range.quantity.field)
+        values = self.values_in(snapshot)
         if values is None or not len(values):
             return
         low, high, logarithmic = self.range.low, self.range.high, self.range.is_logarithmic
@@ -211,9 +188,14 @@ class HistogramDock(QDockWidget):
         smallest = 1.0 if weights is None else float(weights.min())
         return float(np.log10(SMALLEST_PART * max(smallest, 1e-300)))
 
-    def _range_changed(self, id: str) -> None:
-        if id == self.quantity:
-            self.redraw_wanted.emit()
+    def forget_values(self) -> None:
+        self.clear()
+
+    def _show_range(self) -> None:
+        self.redraw_wanted.emit()
+
+    def _set_title(self) -> None:
+        self.setWindowTitle(f"Histogram: {self.range.quantity.title}")
 
     # ------------------------------------------------------------------------------------------ brush
 
