@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from workbench.core.analysis.density import Density, descending, margin
+from workbench.core.analysis.density import ROUNDING, Density, descending, margin
 from workbench.core.arrays import Floats
 
 READABLE = {
@@ -22,6 +22,8 @@ WEIGHTS = (0.25, 0.5, 0.75)
 COUNT, BEST, COPIES = 300, 40, 10
 STEPS = (0.5, 0.2, 0.1, 0.05, 0.02)
 """Random chords of a kind; how many of the best are improved, by how many copies, moved how far."""
+LARGE = 300
+"""Nodes from which on a formula gets fewer chords, so that no text makes this slow."""
 
 Chords = tuple[Floats, Floats, Floats]
 """Starts (k, n), ends (k, n), weights of the ends (k,)."""
@@ -60,7 +62,7 @@ def violating_chord(density: Density) -> tuple[Chord | None, int]:
     generator = np.random.default_rng(83)
     readable = np.array([pair for pair in READABLE[n] for _ in WEIGHTS], dtype=np.float64)
     found, tried, _ = _first(density, readable[:, 0], readable[:, 1], np.tile(WEIGHTS, len(READABLE[n])))
-    starts, ends, weights = _random_chords(generator, n)
+    starts, ends, weights = _random_chords(generator, n, COUNT if len(density.order) < LARGE else COUNT // 4)
     middles = _middles(starts, ends, weights)
     upright = (np.prod(starts, axis=1) > 0) & (np.prod(middles, axis=1) > 0) & (np.prod(ends, axis=1) > 0)
     for chosen in (upright, ~upright):
@@ -88,7 +90,7 @@ def _first(
     singular = np.minimum(np.abs(middles), np.minimum(np.abs(starts), np.abs(ends))).min(axis=1, initial=np.inf) == 0.0
     nearness[singular] = -np.inf
     suspects = np.argsort(-nearness, kind="stable")[:BEST]
-    suspects = np.sort(suspects[nearness[suspects] > 0.0])
+    suspects = np.sort(suspects[nearness[suspects] > ROUNDING])
     ends_and_middles = np.concatenate([q[suspects] for q in (starts, middles, ends)])
     rounding = margin(*density.with_rounding(descending(np.abs(ends_and_middles)))).reshape(3, -1).sum(axis=0)
     violates = np.zeros(len(starts), dtype=bool)
@@ -112,24 +114,24 @@ def _moved(generator: np.random.Generator, chords: Chords, step: float) -> Chord
     return starts, ends * np.exp(step * generator.normal(size=ends.shape)), weights
 
 
-def _random_chords(generator: np.random.Generator, n: int) -> Chords:
+def _random_chords(generator: np.random.Generator, n: int, count: int) -> Chords:
     """Chords near and far, short and long, through zero, and across equal and vanishing singular values."""
     starts, ends = [], []
     for reach in (0.1, 1.0, 3.0):
-        q = np.exp(generator.uniform(-reach, reach, size=(5, COUNT, n)))
-        flips = generator.choice([-1.0, 1.0], size=(COUNT, n))
+        q = np.exp(generator.uniform(-reach, reach, size=(5, count, n)))
+        flips = generator.choice([-1.0, 1.0], size=(count, n))
         starts += [q[0], q[0], q[1], q[2], q[3]]
         ends += [
-            q[0] * (1.0 + 0.1 * generator.normal(size=(COUNT, n))),
-            q[0] * (1.0 + generator.normal(size=(COUNT, n))),
-            flips * np.exp(generator.uniform(-reach, reach, size=(COUNT, n))),
+            q[0] * (1.0 + 0.1 * generator.normal(size=(count, n))),
+            q[0] * (1.0 + generator.normal(size=(count, n))),
+            flips * np.exp(generator.uniform(-reach, reach, size=(count, n))),
             np.roll(q[2], 1, axis=1),  # across a tie: the same singular values in another order
-            np.where(generator.random((COUNT, n)) < 0.5, q[3], -q[3]),
+            np.where(generator.random((count, n)) < 0.5, q[3], -q[3]),
         ]
         # Short chords across a vanishing singular value, and across two that are nearly equal.
-        i, j = np.array([generator.permutation(n)[:2] for _ in range(COUNT)]).T
-        every, gap = np.arange(COUNT), 10.0 ** generator.uniform(-5.0, 0.0, size=COUNT)
-        small, signs = q[4].copy(), np.ones((COUNT, n))
+        i, j = np.array([generator.permutation(n)[:2] for _ in range(count)]).T
+        every, gap = np.arange(count), 10.0 ** generator.uniform(-5.0, 0.0, size=count)
+        small, signs = q[4].copy(), np.ones((count, n))
         small[every, i] *= gap
         signs[every, i] = -1.0
         starts.append(small)
@@ -140,7 +142,7 @@ def _random_chords(generator: np.random.Generator, n: int) -> Chords:
         swapped[every, i], swapped[every, j] = close[every, j], close[every, i]
         starts.append(close)
         ends.append(swapped)
-    count = COUNT * len(starts)
-    weights = generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=count)
-    scale = np.where(generator.random(count) < 0.5, 1.0, np.exp(generator.uniform(-7.0, 7.0, size=count)))[:, None]
+    total = count * len(starts)
+    weights = generator.choice([0.5, 0.25, 0.75, 0.1, 0.9], size=total)
+    scale = np.where(generator.random(total) < 0.5, 1.0, np.exp(generator.uniform(-7.0, 7.0, size=total)))[:, None]
     return scale * np.concatenate(starts), scale * np.concatenate(ends), weights

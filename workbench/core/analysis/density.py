@@ -13,6 +13,8 @@ from workbench.core.expression import Graph, Op
 from workbench.core.tape import Tape, compile_tape
 
 UNIT = float(np.finfo(np.float64).eps)
+ROUNDING = 1e-12
+"""Relative differences below this are rounding, whatever the formula."""
 ARRAY_OPERATIONS = {
     Op.ADD: np.add, Op.SUBTRACT: np.subtract, Op.MULTIPLY: np.multiply, Op.DIVIDE: np.divide, Op.POWER: np.power,
     Op.SQRT: np.sqrt, Op.EXP: np.exp, Op.LOG: np.log, Op.ABS: np.abs, Op.MAXIMUM: np.maximum, Op.MINIMUM: np.minimum,
@@ -115,7 +117,7 @@ def _inherited(op: Op, v: list[Floats], e: list[Floats], out: Floats) -> Floats:
 
 def margin(value: Floats, error: Floats) -> Floats:
     """What rounding may account for, generously."""
-    result: Floats = 16.0 * error + 1e-12 * np.abs(value)
+    result: Floats = 16.0 * error + ROUNDING * np.abs(value)
     return result
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.core.analysis.density import Density, descending, margin, spread
+from workbench.core.analysis.density import ROUNDING, Density, descending, margin, spread
 from workbench.core.analysis.log_convexity import is_proved_log_convex
 from workbench.core.analysis.normal_form import NormalForms
 from workbench.core.analysis.properties import Property, point_text
@@ -24,7 +24,7 @@ def normalisation(density: Density) -> Property:
     candidates = _candidates(n)
     values = density(candidates)
     best = _descend(density, candidates, values)
-    suspects = np.concatenate([candidates[values < at_ones][:SURVIVORS], best[None]])
+    suspects = np.concatenate([candidates[values < at_ones - ROUNDING * abs(at_ones)][:SURVIVORS], best[None]])
     found, tolerance = density(suspects), margin(*density.with_rounding(suspects)) + margin(*density.with_rounding(ones))
     lower = np.flatnonzero(found < at_ones - tolerance)
     if len(lower):

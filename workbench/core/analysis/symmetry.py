@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.core.analysis.density import Density, margin, spread
+from workbench.core.analysis.density import ROUNDING, Density, margin, spread
 from workbench.core.analysis.identity import is_proved_symmetric
 from workbench.core.analysis.properties import Property, point_text
 from workbench.core.arrays import Floats
@@ -27,7 +27,7 @@ def symmetry(density: Density) -> Property:
     gap = np.where(usable, np.abs(values - mirrored), 0.0) / np.where(usable, np.abs(values) + np.abs(mirrored) + 1e-300, 1.0)
     # Readable points first, then those that differ most.
     suspects = np.array(
-        [k for k in (*range(len(simple)), *np.argsort(-gap, kind="stable")[:SUSPECTS]) if gap[k] > 0.0], dtype=int
+        [k for k in (*range(len(simple)), *np.argsort(-gap, kind="stable")[:SUSPECTS]) if gap[k] > ROUNDING], dtype=int
     )
     pairs = np.concatenate([points[suspects], inverse(points[suspects])])
     tolerance = margin(*density.with_rounding(pairs)).reshape(2, -1).sum(axis=0)
