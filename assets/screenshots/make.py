@@ -1,6 +1,6 @@
-"""The picture of the README: the window on its first sample in a lively pose, saved by the window's own screenshot.
+"""The pictures of the README: the window on its first sample in a lively pose, and the inspector on a typed formula.
 
-    xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark] [FILE.png]
+    xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ from workbench.app.theme import ThemeSwitch  # noqa: E402
 
 SIZE = (1500, 920)
 STEPS = 40
+FORMULA = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
 POSE = ((0.06, 0.27), (-0.14, 0.10), (0.09, -0.01), (0.0, 0.0), (0.0, -0.26))
 """Moves of the sample's anchors, sorted from left to right, in diameters: a dancer."""
 
 
-def main(theme: str = "light", file: str = "") -> None:
+def main(theme: str = "light") -> None:
     """Open, drag the anchors one by one, wait for the solver, save."""
-    path = Path(file) if file else Path(__file__).with_name("window.png")
+    here = Path(__file__).parent
     with tempfile.TemporaryDirectory() as folder:
         window = MainWindow(ThemeSwitch(application, theme), Settings(Path(folder) / "settings.ini"))
         window.resize(*SIZE)
@@ -53,15 +54,40 @@ def main(theme: str = "light", file: str = "") -> None:
         window.commands.fit()
         window.turns.draw_all()
         QTest.qWait(700)
-        window.commands.save_screenshot(window, str(path))
+        window.commands.save_screenshot(window, str(here / "window.png"))
+        show_inspector(window, here / "inspector.png")
         window.close()
-    smaller(path)
+    smaller(here / "window.png")
+    smaller(here / "inspector.png")
+
+
+def show_inspector(window: MainWindow, path: Path) -> None:
+    """Three pages of the inspector side by side, on a formula of one's own and the map that is minimal for it."""
+    document = window.document
+    document.choose(distortion=FORMULA, distortion_parameters={"lam": 0.2})
+    inspector = window.inspector
+    inspector.toggle.trigger()
+    inspector.setFloating(True)
+    inspector.resize(430, 610)
+    until(lambda: not document.is_at_work)
+    pages = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(3):
+            inspector.tabs.setCurrentIndex(number)
+            QTest.qWait(4000)
+            file = Path(folder) / f"{number}.png"
+            inspector.grab().save(str(file))
+            pages.append(Image.open(file).convert("RGB"))
+    sheet = Image.new("RGB", (sum(page.width for page in pages), pages[0].height))
+    for number, page in enumerate(pages):
+        sheet.paste(page, (number * page.width, 0))
+    sheet.save(path)
 
 
 def smaller(path: Path) -> None:
-    """256 colours are enough for a screen of few colours, and a third of the bytes."""
+    """The same picture in fewer bytes."""
     with Image.open(path) as picture:
-        reduced = picture.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+        reduced = picture.convert("RGB")
     reduced.save(path, optimize=True)
 
 
