@@ -60,16 +60,17 @@ def violating_chord(density: Density) -> tuple[Chord | None, int]:
     """
     n = density.dimension
     generator = np.random.default_rng(83)
+    share = 1 if len(density.order) < LARGE else 4
     readable = np.array([pair for pair in READABLE[n] for _ in WEIGHTS], dtype=np.float64)
     found, tried, _ = _first(density, readable[:, 0], readable[:, 1], np.tile(WEIGHTS, len(READABLE[n])))
-    starts, ends, weights = _random_chords(generator, n, COUNT if len(density.order) < LARGE else COUNT // 4)
+    starts, ends, weights = _random_chords(generator, n, COUNT // share)
     middles = _middles(starts, ends, weights)
     upright = (np.prod(starts, axis=1) > 0) & (np.prod(middles, axis=1) > 0) & (np.prod(ends, axis=1) > 0)
     for chosen in (upright, ~upright):
         if found is None:
             found, count, excess = _first(density, starts[chosen], ends[chosen], weights[chosen], plainest=True)
             tried += count
-            best = np.argsort(-excess, kind="stable")[:BEST]
+            best = np.argsort(-excess, kind="stable")[: BEST // share]
             for step in STEPS:
                 if found is None:
                     near = starts[chosen][best], ends[chosen][best], weights[chosen][best]
