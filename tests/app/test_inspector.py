@@ -192,6 +192,22 @@ def test_what_is_no_distortion_breaks_no_page(inspector: InspectorDock, window: 
     assert inspector.subject.distortion.id == "arap"
 
 
+def test_a_formula_for_the_plane_alone_says_so_in_space(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
+    window.document.choose(distortion="sum(largest(2)*sigma)", distortion_parameters={})
+    assert inspector.subject.distortion is not None
+    try:
+        for page in range(inspector.tabs.count()):
+            inspector.tabs.setCurrentIndex(page)
+            inspector.subject.dimension = 3
+            assert inspector.subject.distortion is None
+            assert inspector.heading.error.isVisible()
+            qtbot.wait(60)
+            inspector.subject.dimension = 2
+            assert not inspector.heading.error.isVisible()
+    finally:
+        inspector.subject.dimension = 2
+
+
 def test_an_analysis_that_fails_is_a_sentence(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
     page = inspector.formula
     analyser = page._analyser
@@ -357,6 +373,20 @@ def test_the_mirror_path_tells_about_convexity(
         assert not page.picture.scene.inverted.any()
     finally:
         inspector.subject.dimension = 2
+
+
+def test_a_window_that_was_left_open_comes_back_so(make_window: WindowMaker, qtbot: QtBot) -> None:
+    first = make_window()
+    qtbot.waitUntil(lambda: first.document.positions is not None)
+    first.inspector.toggle.trigger()
+    qtbot.wait(100)
+    first.close()
+    second = make_window()
+    assert second.inspector.toggle.isChecked() and second.inspector.isVisible()
+    qtbot.waitUntil(lambda: second.inspector.subject.distortion is not None, timeout=SLOW)
+    second.inspector.toggle.trigger()
+    qtbot.wait(100)
+    assert not any(second.tabifiedDockWidgets(dock) for dock in second.maps)
 
 
 def test_both_themes_have_every_page(make_window: WindowMaker, qtbot: QtBot) -> None:

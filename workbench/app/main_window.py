@@ -79,7 +79,7 @@ class MainWindow(QMainWindow):
         )
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
-        self.turns.add(self.inspector.plane, self.inspector.plane.draw_points)
+        self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
         self._make_tools()
         self.commands = Commands(self)
         fill_menus(self)

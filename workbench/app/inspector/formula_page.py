@@ -56,13 +56,14 @@ class FormulaPage(Page):
         self.citation = _label(self)
         self.citation.setObjectName("citation")
         self.description = _label(self)
+        self.inversions = _label(self)
         self.parameters = _label(self)
         self.badges = Badges(self)
         body = QWidget(self)
         layout = QVBoxLayout(body)
         layout.setContentsMargins(8, 6, 8, 8)
         layout.setSpacing(7)
-        for widget in (self.text, self.parameters, self.description, self.citation, self.badges):
+        for widget in (self.text, self.parameters, self.description, self.inversions, self.citation, self.badges):
             layout.addWidget(widget)
         layout.addStretch(1)
         area = QScrollArea(self)
@@ -96,6 +97,7 @@ class FormulaPage(Page):
             return
         self.picture.show_formula(formula_lines(item, registry), f"D = {item.formula}")
         self.text.setText(f"<code>{_spaced(item.formula)}</code>")
+        self._show(self.inversions, unsigned_note(item, self.subject.dimension))
         self._show(self.citation, item.citation)
         self._show(self.description, item.description)
         values = item.parameter_values
@@ -106,7 +108,7 @@ class FormulaPage(Page):
 
     def _show_nothing(self) -> None:
         self.picture.show_formula((), "")
-        for label in (self.text, self.citation, self.description, self.parameters):
+        for label in (self.text, self.citation, self.description, self.inversions, self.parameters):
             label.hide()
         self.badges.say(self.subject.sentence)
 
@@ -157,6 +159,13 @@ def _answer(analyser: Analyser, item: Distortion, key: Key) -> tuple[Key, Any, s
         return key, analyser(item, key[2]), ""
     except WorkbenchError as error:
         return key, None, error.sentence
+
+
+def unsigned_note(item: Distortion, dimension: int) -> str:
+    """What becomes of an inverted simplex, in one sentence."""
+    if item.has_barrier(dimension):
+        return "Counts as ∞ where det J ≤ 0."
+    return "Taken at |σ|: an inverted simplex counts as its mirror image does."
 
 
 def formula_lines(item: Distortion, registry: Registry) -> tuple[str, ...]:

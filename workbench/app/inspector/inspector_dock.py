@@ -174,15 +174,16 @@ class InspectorDock(QDockWidget):
 
     def _give_back(self, window: QMainWindow) -> None:
         """Lay the colour maps below each other again, where they still stand as they were put."""
-        if not self._made_room:
+        # where it was not opened in this window, it stands as an earlier window left it
+        column = self._column or [dock for dock in self._maps if _is_in_column(window, dock)]
+        if not self._made_room and self._column:
             return
         self._made_room = False
-        column = self._column
-        if all(_is_in_column(window, dock) and window.tabifiedDockWidgets(dock) for dock in column):
+        if column and all(_is_in_column(window, dock) and window.tabifiedDockWidgets(dock) for dock in column):
             for dock in column[1:]:
                 window.addDockWidget(RIGHT, dock, Qt.Orientation.Vertical)
             window.resizeDocks(column, [100] * len(column), Qt.Orientation.Vertical)
-            window.resizeDocks(column[:1], [self._before[0]], Qt.Orientation.Horizontal)
+            window.resizeDocks(column[:1], [self._before[0] or WIDTH], Qt.Orientation.Horizontal)
 
     # ------------------------------------------------------------------------------------------ parts
 

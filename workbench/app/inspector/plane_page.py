@@ -189,6 +189,10 @@ class PlanePage(Page):
             self._is_fitted = True
             self.fit()
 
+    def cost(self) -> float:
+        """Seconds that drawing the points took last."""
+        return self.plot.seconds
+
     def _say_what(self) -> None:
         count = len(self._places)
         parts = ["σ₂ is the geometric mean of σ₁ and σ₃."] if self.subject.dimension == 3 else []

@@ -22,12 +22,12 @@ class Subject(QObject):
         super().__init__()
         self._document = document
         self._dimension = 0
-        self._seen: tuple[str, tuple[tuple[str, float], ...]] | None = None
+        self._seen: Key | None = None
         self._distortion: Distortion | None = None
         self._sentence = ""
         self.registry: Registry | None = None
         document.session_changed.connect(self._session_changed)
-        document.opened.connect(self.changed)
+        document.opened.connect(self._opened)
 
     def set_registry(self, registry: Registry) -> None:
         """The methods were found; before that nothing can be resolved."""
@@ -66,9 +66,13 @@ class Subject(QObject):
             return ("", (), self.dimension)
         return (item.formula, tuple(sorted(item.parameter_values.items())), self.dimension)
 
-    def _choice(self) -> tuple[str, tuple[tuple[str, float], ...]]:
+    def _opened(self) -> None:
+        self._dimension = 0  # that of the new mesh
+        self.changed.emit()
+
+    def _choice(self) -> Key:
         session = self._document.session
-        return session.distortion, tuple(sorted(session.distortion_parameters.items()))
+        return session.distortion, tuple(sorted(session.distortion_parameters.items())), self.dimension
 
     def _session_changed(self) -> None:
         if self._choice() != self._seen:
@@ -81,7 +85,8 @@ class Subject(QObject):
         self._seen = choice
         self._distortion, self._sentence = None, ""
         try:
-            self._distortion = Distortion.resolve(choice[0], dict(choice[1]))
-            self._distortion.compiled(self.dimension)
+            item = Distortion.resolve(choice[0], dict(choice[1]))
+            item.compiled(self.dimension)
+            self._distortion = item
         except WorkbenchError as error:
             self._sentence = error.sentence
