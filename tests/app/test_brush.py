@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
@@ -12,7 +15,9 @@ from workbench.app.main_window import MainWindow
 from workbench.app.quantities import Quantity
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import BRUSH
+from workbench.app.views.brush_mark import BrushedParts
 from workbench.app.views.mesh_view import MeshView
+from workbench.core.mesh import Mesh
 from workbench.engine.messages import Watch
 
 DETERMINANT = Quantity("det", "Determinant", "", "det J", 0.0)
@@ -48,6 +53,18 @@ def test_brushed_simplices_are_marked_in_every_view_until_escape(window: MainWin
     assert not len(window.brush.simplices)
     for view in views:
         qtbot.waitUntil(lambda v=view: brushed_pixels(v) == 0)
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_outline_is_the_boundary_of_the_set(square: Mesh, seed: int) -> None:
+    rows = np.flatnonzero(np.random.default_rng(seed).random(square.simplex_count) < 0.4)
+    part = BrushedParts(square.simplices).part(np.append(rows, 10**6))
+    np.testing.assert_array_equal(part.rows, rows)
+    found = {tuple(sorted(edge)) for edge in part.outline.tolist()}
+    times: Counter[tuple[int, ...]] = Counter()
+    for a, b, c in square.simplices[rows].tolist():
+        times.update(tuple(sorted(edge)) for edge in ((a, b), (b, c), (c, a)))
+    assert found == {edge for edge, count in times.items() if count == 1} and len(found) == len(part.outline)
 
 
 def test_another_mesh_clears_the_brush(window: MainWindow, qtbot: QtBot) -> None:

@@ -12,6 +12,7 @@ from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.views.brush_mark import BrushedParts
 from workbench.app.views.geometry import DisplayFrame, Geometry
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
@@ -48,6 +49,7 @@ class Presenter(QObject):
         self._turns = turns
         self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
+        self._brushable: BrushedParts | None = None
         self._hovered = -1
         self._fits_next = False
         self._late_marks = QTimer(self)
@@ -82,6 +84,7 @@ class Presenter(QObject):
         assert loaded is not None
         self.clear()
         self._brush.clear()
+        self._brushable = BrushedParts(loaded.mesh.simplices)
         geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices)
         surface = self.source.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
@@ -171,9 +174,12 @@ class Presenter(QObject):
 
     def _show_brush(self) -> None:
         """Mark the brushed simplices in every view; the panels follow the target in turns."""
+        if self._brushable is None:
+            return
+        part = self._brushable.part(self._brush.simplices)
         for view in (self.source, self.target, *(dock.view for dock in self._maps)):
             if view.surface is not None:
-                view.surface.show_brushed(self._brush.simplices)
+                view.surface.show_brushed(part)
         self.target.refresh()
         self._turns.take_map()
         if not self.target.is_shown():

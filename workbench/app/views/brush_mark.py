@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,12 +18,47 @@ TINT = 0.3
 """Opacity of the tint: what lies below it, the yellow of inverted triangles too, is still told apart."""
 
 
+@dataclass(frozen=True, eq=False)
+class BrushedPart:
+    """What is marked, the same in every view: rows of the triangles (k,), edges round them (e, 2)."""
+
+    rows: Integers
+    outline: Integers
+
+
+class BrushedParts:
+    """Finds the outline of any set of triangles of one mesh; the table behind it is made at the first question."""
+
+    def __init__(self, triangles: Integers) -> None:
+        self._triangles = triangles
+
+    def part(self, rows: Integers) -> BrushedPart:
+        """The set of these rows (k,); those that do not exist are left out.
+
+        Its outline are the edges that belong to one triangle of the set only: lines inside it would hide its colours.
+        """
+        rows = rows[rows < len(self._triangles)]
+        if not len(rows):
+            return BrushedPart(rows, np.empty((0, 2), np.int64))
+        edges, edges_of_triangle = self._edge_table
+        counts = np.bincount(edges_of_triangle[rows].ravel(), minlength=len(edges))
+        return BrushedPart(rows, edges[counts == 1])
+
+    @cached_property
+    def _edge_table(self) -> tuple[Integers, Integers]:
+        """Every edge once (e, 2), and which three each triangle has (m, 3)."""
+        ends = np.stack([self._triangles, np.roll(self._triangles, -1, axis=1)], axis=2).reshape(-1, 2)
+        ends.sort(axis=1)
+        count = int(self._triangles.max(initial=0)) + 1
+        keys, places = np.unique(ends[:, 0] * count + ends[:, 1], return_inverse=True)
+        return np.stack([keys // count, keys % count], axis=1), places.reshape(-1, 3)
+
+
 class BrushMark:
     """Marks a set of triangles of one `Geometry`, in place; it costs nothing while the set is empty."""
 
     def __init__(self, geometry: Geometry) -> None:
         self._geometry = geometry
-        self._table: tuple[Integers, Integers] | None = None
         self._area, self._outline = vtkPolyData(), vtkPolyData()
         for part in (self._area, self._outline):
             part.SetPoints(geometry.vtk_points)
@@ -31,28 +68,10 @@ class BrushMark:
         core = line_actor(self._outline, BRUSH, 2.2, nearer=17.0)
         self.actors = (tint, casing, core)
 
-    def show(self, triangles: Integers) -> None:
-        """Mark these rows (k,) of the triangles; those that do not exist are left out."""
-        rows = triangles[triangles < len(self._geometry.triangles)]
+    def show(self, part: BrushedPart) -> None:
+        """Mark these triangles, in place of those before."""
         for actor in self.actors:
-            actor.SetVisibility(len(rows) > 0)
-        if len(rows):
-            self._area.SetPolys(cells(self._geometry.triangles[rows]))
-            self._outline.SetLines(cells(self._edges_round(rows)))
-
-    def _edges_round(self, rows: Integers) -> Integers:
-        """Edges (e, 2) that belong to one triangle of the set only: lines inside it would hide its colours."""
-        if self._table is None:
-            self._table = _edge_table(self._geometry.triangles)
-        edges, edges_of_triangle = self._table
-        counts = np.bincount(edges_of_triangle[rows].ravel(), minlength=len(edges))
-        return edges[counts == 1]
-
-
-def _edge_table(triangles: Integers) -> tuple[Integers, Integers]:
-    """Every edge once (e, 2), and which three each triangle has (m, 3)."""
-    ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
-    ends.sort(axis=1)
-    count = int(triangles.max(initial=0)) + 1
-    keys, places = np.unique(ends[:, 0] * count + ends[:, 1], return_inverse=True)
-    return np.stack([keys // count, keys % count], axis=1), places.reshape(-1, 3)
+            actor.SetVisibility(len(part.rows) > 0)
+        if len(part.rows):
+            self._area.SetPolys(cells(self._geometry.triangles[part.rows]))
+            self._outline.SetLines(cells(part.outline))

@@ -12,7 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from workbench.app.colour_range import ColourRange
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of, surface_actor
-from workbench.app.views.brush_mark import BrushMark
+from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import lookup_table, single_colour
@@ -164,9 +164,9 @@ class Surface:
         self._cut_actor.SetVisibility(len(edges) > 0)
         self._cut.SetLines(cells(edges))
 
-    def show_brushed(self, triangles: Integers) -> None:
-        """Rows (k,) of the triangles that are brushed: tinted and outlined, above all others."""
-        self._brush.show(triangles)
+    def show_brushed(self, part: BrushedPart) -> None:
+        """Triangles that are brushed: tinted and outlined, above all others."""
+        self._brush.show(part)
 
 
 def _inverted_actor(polydata: vtkPolyData) -> Any:
