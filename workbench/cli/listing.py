@@ -138,7 +138,15 @@ def analyses() -> list[Entry]:
     convexity = _entry(
         "analyses", "convexity", "Convexity of a distortion", "Theorem 8.3, Proposition 8.1", KINDS, option="check"
     )
-    return [verdicts, *refinements, badges, convexity]
+    signatures = _entry(
+        "analyses",
+        "shape-signature",
+        "Histograms of average singular values, compared across maps",
+        "(78), Ben-Chen & Gotsman 2008 [BCG08]",
+        KINDS,
+        option="signatures",
+    )
+    return [verdicts, *refinements, badges, convexity, signatures]
 
 
 def samples() -> list[Entry]:
