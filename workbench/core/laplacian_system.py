@@ -58,10 +58,10 @@ class LaplacianSystem:
     def largest_eigenvalue(self) -> float:
         """Of K without soft anchors, by power iteration: from below, to about a hundredth."""
         vector = np.cos(np.arange(self._pattern.size) * 2.4)
-        size = 0.0
+        size = 1.0
         for _ in range(30):
-            vector = self._pattern.multiply(self._bare, vector / np.sqrt(vector @ vector))
-            size = float(np.sqrt(vector @ vector))
+            vector = self._pattern.multiply(self._bare, vector / max(size, 1e-300))
+            size = float(np.sqrt(np.einsum("i,i->", vector, vector)))
         return size
 
     def prepare(self) -> None:
