@@ -18,6 +18,7 @@ from workbench.api import (
     Status,
     descend,
     direction_in_metric,
+    parameter,
 )
 
 LADDER = (1.0, 0.7, 0.4, 0.2, 0.1, 0.0)
@@ -41,6 +42,9 @@ class Fast(ProgressiveSolver):
     label = "Fast (progressive, then exact Newton)"
     short = "fast"
     citation = "Liu, Ye, Ni, Fu 2018 [LYNF18]; Longva, Löschner, Fernández-Fernández, Larionov, Ascher, Bender 2023"
+
+    close: float = parameter(0.3, "relative decrease of a step below which the source is used", minimum=0.0, maximum=1.0)
+    uniform: bool = parameter(False, "every triangle of a reference weighs the same, instead of its area")
 
     def near(
         self, problem: Problem, state: State, evaluation: Evaluation, progress: Progress, interrupt: Interrupt
