@@ -15,8 +15,29 @@ from workbench.core.registry import registry
 
 IDS = sorted(registry().distortions)
 KINKED_AT_TIES = {
-    2: {"condition-number", "qc-dilatation", "qc-inner", "qc-outer", "spectral", "quasi-isometric", "symmetric-arap"},
-    3: {"condition-number", "qc-dilatation", "qc-inner", "qc-outer", "spectral", "quasi-isometric", "symmetric-arap", "ky-fan"},
+    2: {
+        "blend",
+        "exp-blend",
+        "condition-number",
+        "qc-dilatation",
+        "qc-inner",
+        "qc-outer",
+        "spectral",
+        "quasi-isometric",
+        "symmetric-arap",
+    },
+    3: {
+        "blend",
+        "exp-blend",
+        "condition-number",
+        "qc-dilatation",
+        "qc-inner",
+        "qc-outer",
+        "spectral",
+        "quasi-isometric",
+        "symmetric-arap",
+        "ky-fan",
+    },
 }
 """Of n: where sigma_i = sigma_j those are not smooth in the map."""
 

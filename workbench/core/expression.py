@@ -13,6 +13,7 @@ where the exact second derivative, which is 0 there, would jump across it.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from enum import IntEnum
 
 
@@ -213,14 +214,15 @@ class Graph:
     def derivative(self, node: int, variable: int, *, majorise: bool = False) -> int:
         """Partial derivative of `node`; `majorise` matters for second derivatives at a switch of max or min."""
         # A graph lists arguments before what uses them, so one pass in order needs no recursion.
-        for index in self._reachable(node):
+        for index in self.reachable([node]):
             if (index, variable, majorise) not in self._derivatives:
                 self._derivatives[index, variable, majorise] = self._differentiate(index, variable, majorise)
         return self._derivatives[node, variable, majorise]
 
-    def _reachable(self, node: int) -> list[int]:
-        seen = {node}
-        stack = [node]
+    def reachable(self, nodes: Iterable[int]) -> list[int]:
+        """Every node that the given ones are made of, arguments before what uses them."""
+        stack = list(nodes)
+        seen = set(stack)
         while stack:
             for argument in self.nodes[stack.pop()][2]:
                 if argument not in seen:

@@ -153,7 +153,7 @@ def _read_number(
     root = _Reader(graph, parameters, resolve).read(text)
     if isinstance(root, list):
         raise FormulaError("The result is a vector; it must be one number a simplex: wrap it in sum, max, min or prod.")
-    if not any(graph.nodes[n][0] is Op.VARIABLE for n in graph._reachable(root)):
+    if not any(graph.nodes[n][0] is Op.VARIABLE for n in graph.reachable([root])):
         raise FormulaError("The formula is a constant; it must depend on the singular values (sigma, sigma1, ..., det).")
     _check_values(graph, root, graph.variable_count)
     return root

@@ -49,10 +49,7 @@ class Tape:
 
 def compile_tape(graph: Graph, results: list[int]) -> Tape:
     """Instructions for `results` (nodes of `graph`), with registers reused once their last reader is done."""
-    needed: set[int] = set()
-    for node in results:
-        needed.update(graph._reachable(node))
-    order = sorted(needed)
+    order = graph.reachable(results)
     last_use = {node: position for position, node in enumerate(order)}
     for position, node in enumerate(order):
         for argument in graph.nodes[node][2]:

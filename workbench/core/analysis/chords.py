@@ -11,13 +11,13 @@ from workbench.core.analysis.density import ROUNDING, Density, descending, margi
 from workbench.core.arrays import Floats
 
 READABLE = {
-    2: (((1, 1), (-1, -1)), ((2, 1), (-2, -1)), ((2, 1), (6, 2)), ((1, 1), (3, 1)), ((1, 0.5), (1, 2)), ((1, 1), (-1, 1))),
+    2: (((2, 1), (6, 2)), ((1, 1), (3, 1)), ((1, 0.5), (1, 2)), ((1, 1), (-1, -1)), ((2, 1), (-2, -1)), ((1, 1), (-1, 1))),
     3: (
-        ((1, 1, 1), (-1, -1, 1)), ((2, 1, 1), (-2, -1, 1)), ((2, 1, 1), (6, 2, 2)), ((1, 1, 1), (3, 1, 1)),
-        ((1, 1, 0.5), (1, 1, 2)), ((1, 1, 1), (-1, -1, -1)), ((1, 1, 1), (-1, 1, 1)),
+        ((2, 1, 1), (6, 2, 2)), ((1, 1, 1), (3, 1, 1)), ((1, 1, 0.5), (1, 1, 2)),
+        ((1, 1, 1), (-1, -1, 1)), ((2, 1, 1), (-2, -1, 1)), ((1, 1, 1), (-1, -1, -1)), ((1, 1, 1), (-1, 1, 1)),
     ),
 }  # fmt: skip
-"""Chords that people can check by hand, tried first."""
+"""Chords that people can check by hand, tried first; of these, those first that stay in GL(n) all the way."""
 WEIGHTS = (0.25, 0.5, 0.75)
 COUNT, BEST, COPIES = 300, 40, 10
 STEPS = (0.5, 0.2, 0.1, 0.05, 0.02)

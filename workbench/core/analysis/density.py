@@ -47,7 +47,7 @@ class Density:
     @cached_property
     def order(self) -> list[int]:
         """Nodes that the root needs, arguments first."""
-        return self.graph._reachable(self.root)
+        return self.graph.reachable([self.root])
 
     @cached_property
     def _value_tape(self) -> Tape:
