@@ -69,6 +69,11 @@ def test_factors_reach_equally_far_below_and_above_one(qapp: object) -> None:
     assert colour_range.low * colour_range.high == pytest.approx(1.0)
     assert colour_range.low <= 0.56
     assert colour_range.share_of(1.0) == pytest.approx(0.5)
+    far = colour_range.high
+    colour_range.take(np.linspace(0.7, 1.4, 100, dtype=np.float32))
+    assert colour_range.high == far, "colours keep their meaning while values wander"
+    colour_range.take(np.linspace(0.97, 1.02, 100, dtype=np.float32))
+    assert colour_range.high == pytest.approx(1.05)
 
 
 @pytest.mark.parametrize("ends", [(0.8, 4.0), (0.25, 1.25), (1.5, 3.0)])

@@ -15,6 +15,8 @@ SAMPLE = 20_000
 """Values that a range is fitted to: enough for round numbers, and cheap on large meshes."""
 SHRINKS_BELOW = 0.15
 """Part of the range below which it follows values that have become small."""
+SHRINKS_BELOW_IN_FACTORS = 0.5
+"""The same on a logarithmic scale, where ranges are alike in length for values that are far apart."""
 
 
 class ColourRange(QObject):
@@ -70,7 +72,8 @@ class ColourRange(QObject):
         old_low, old_high = self.scaled(self.low), self.scaled(self.high)
         slack = 1e-9 * (old_high - old_low)
         has_outgrown = low < old_low - slack or high > old_high + slack
-        if self._is_fresh or has_outgrown or high - low < SHRINKS_BELOW * (old_high - old_low):
+        least_part = SHRINKS_BELOW_IN_FACTORS if self.is_logarithmic else SHRINKS_BELOW
+        if self._is_fresh or has_outgrown or high - low < least_part * (old_high - old_low):
             self._is_fresh = False
             self._set(*ends)
 
