@@ -181,6 +181,7 @@ def _race(
 
 
 def _write(prepared: list[PreparedProblem], races: list[Race], options: argparse.Namespace) -> list[dict[str, Any]]:
+    from workbench.engine.contestants import file_name
     from workbench.engine.race_table import history_rows, race_table
     from workbench.io.atomic import filling, write_text
     from workbench.io.write import csv_text
@@ -193,7 +194,24 @@ def _write(prepared: list[PreparedProblem], races: list[Race], options: argparse
         write_text(folder / "table.json", json_text(_report(prepared, tables, options)))
         histories = (row for name, race in zip(names, races, strict=True) for row in history_rows(race, name))
         write_text(folder / "history.csv", csv_text(histories))
+        for name, race in zip(names, races, strict=True):
+            place = folder / file_name(name) if len(names) > 1 else folder
+            place.mkdir(exist_ok=True)
+            _draw(race, name, options.rows, place)
     return found
+
+
+def _draw(race: Race, name: str, rows: tuple[int, ...], folder: Path) -> None:
+    from workbench.figures.contact_sheet import contact_sheet, sheet_columns
+    from workbench.figures.convergence_curves import convergence_curves, curves_of
+    from workbench.figures.save import save_figure
+
+    curves = convergence_curves(curves_of(race), name)
+    for ending in (".svg", ".pdf", ".png"):
+        save_figure(curves, folder / f"curves{ending}")
+    sheet = contact_sheet(race.racers[0].problem, sheet_columns(race, rows), rows, name)
+    for ending in (".png", ".pdf"):
+        save_figure(sheet, folder / f"sheet{ending}")
 
 
 def _mesh_names(files: list[str]) -> list[str]:

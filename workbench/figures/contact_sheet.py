@@ -1,0 +1,198 @@
+"""The contact sheet of a comparison: a column a contestant, a row an iteration, the textured source at the right (Fig. 11)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.jacobians import determinants, signed_singular_values
+from workbench.figures.mesh_pictures import (
+    Skin,
+    coloured_picture,
+    frame_round,
+    skin_of,
+    texture_square,
+    textured_picture,
+    view_of,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.figure import Figure
+
+    from workbench.core.problem import Problem
+    from workbench.engine.race import Race
+
+LAST = -1
+"""The row of the last maps."""
+TRIMMED = 34
+"""Entries of the colour table left out at its pale end, which would be lost on white paper."""
+INVERTED = (1.0, 0.83, 0.0)
+CELL = 1.75
+"""Width and height of a picture, inches."""
+TEXTURED = 1.9
+"""Width of the column of textured sources, inches."""
+
+
+@dataclass(frozen=True, eq=False)
+class SheetMap:
+    """A map on the sheet, as it was after `iteration` steps."""
+
+    iteration: int
+    seconds: float
+    positions: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class SheetColumn:
+    """A contestant: its map for every row; `is_constant` for a map from elsewhere."""
+
+    label: str
+    maps: tuple[SheetMap, ...]
+    is_constant: bool = False
+
+
+def sheet_columns(race: Race, rows: Sequence[int]) -> list[SheetColumn]:
+    """The maps of a race after these iterations, `LAST` for the end; who ended before keeps its last map."""
+    columns = []
+    for racer in race.racers:
+        frames = [racer.maps.frames[-1] if row == LAST else racer.maps.at_iteration(row) for row in rows]
+        maps = tuple(SheetMap(frame.iteration, frame.seconds, frame.positions) for frame in frames)
+        columns.append(SheetColumn(racer.label, maps, racer.solver is None))
+    return columns
+
+
+def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequence[int], title: str = "") -> Figure:
+    """The figure: targets coloured by the distortion of `problem` on one scale, inverted simplices yellow on top.
+
+    Parameters
+    ----------
+    columns : sequence of SheetColumn     each with as many maps as there are `rows`
+    rows : sequence of int                iterations, `LAST` for the end
+
+    Tetrahedra are seen from outside. The sources at the right carry a chequered texture of the target's coordinates.
+    """
+    from matplotlib.figure import Figure
+
+    mesh = problem.mesh
+    skin = skin_of(mesh)
+    view = view_of(mesh) if mesh.vertices.shape[1] == 3 else None
+    paint = _colour_scale(problem, columns, skin)
+    figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, (CELL + 0.22) * len(rows) + 1.1), layout="constrained")
+    grid = figure.add_gridspec(1, 2, width_ratios=[CELL * len(columns), TEXTURED])
+    left = grid[0].subgridspec(len(rows), len(columns)).subplots(squeeze=False)
+    right = grid[1].subgridspec(len(columns), 1).subplots(squeeze=False)[:, 0]
+    turned = [[_turned(item.positions, view) for item in column.maps] for column in columns]
+    half = frame_round(np.vstack([points - _middle(points) for each in turned for points in each])).half
+    for j, column in enumerate(columns):
+        for i, item in enumerate(column.maps):
+            cell = left[i, j]
+            _draw_target(cell, problem, skin, paint, turned[j][i], item.positions, half)
+            cell.set_title(_caption(column, item, rows[i]), fontsize=6.5, pad=2)
+            if i == 0:
+                cell.annotate(
+                    column.label, (0.5, 1), (0, 14), xycoords="axes fraction", textcoords="offset points",
+                    ha="center", fontsize=9,
+                )  # fmt: skip
+            if j == 0:
+                cell.set_ylabel("last" if rows[i] == LAST else f"iteration {rows[i]}", fontsize=8)
+        _draw_source(right[j], problem, skin, view, column)
+    bar = figure.colorbar(paint, ax=list(left.ravel()), location="bottom", extend="max", shrink=0.6, aspect=40, pad=0.01)
+    bar.set_label(_distortion_name(problem), fontsize=8)
+    bar.ax.tick_params(labelsize=7)
+    if title:
+        figure.suptitle(title, fontsize=10)
+    return figure
+
+
+def _colour_scale(problem: Problem, columns: Sequence[SheetColumn], skin: Skin) -> ScalarMappable:
+    """One scale for all maps: from the least to all but the worst hundredth; logarithmic where it spans much."""
+    import colorcet
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import ListedColormap, LogNorm, Normalize
+
+    values = np.concatenate([_distortions(problem, item.positions)[skin.simplex] for c in columns for item in c.maps])
+    values = values[np.isfinite(values)]
+    low, high = (float(values.min()), float(np.quantile(values, 0.99))) if len(values) else (0.0, 1.0)
+    high = max(high, low + 1e-6 * abs(low) + 1e-12)
+    norm = LogNorm(low, high) if low > 0 and high > 8 * low else Normalize(low, high)
+    return ScalarMappable(norm, ListedColormap(colorcet.palette["CET_L19"][TRIMMED:]))
+
+
+def _distortions(problem: Problem, positions: Floats) -> Floats:
+    """The distortion (m,) of every simplex, infinite where it is inverted or undefined."""
+    with np.errstate(all="ignore"):
+        values = problem.distortion.value(signed_singular_values(problem.elements, positions))
+    return np.where(np.isnan(values), np.inf, values)
+
+
+def _turned(positions: Floats, view: Floats | None) -> Floats:
+    return positions @ view.T if positions.shape[1] == 3 and view is not None else positions
+
+
+def _middle(points: Floats) -> Floats:
+    middle: Floats = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    return middle
+
+
+def _draw_target(
+    cell: Axes,
+    problem: Problem,
+    skin: Skin,
+    paint: ScalarMappable,
+    points: Floats,
+    positions: Floats,
+    half: tuple[float, float],
+) -> None:
+    from matplotlib.collections import LineCollection
+
+    inverted = ~(determinants(problem.elements, positions)[skin.simplex] > 0)
+    values = np.minimum(_distortions(problem, positions)[skin.simplex], np.finfo(float).max)
+    colours = paint.to_rgba(values)[:, :3]
+    colours[inverted] = INVERTED
+    frame = frame_round(points, half)
+    cell.imshow(coloured_picture(points, skin, colours, frame, inverted), extent=frame.extent, origin="lower")
+    if problem.dimension == 2:
+        edges = positions[problem.mesh.topology.boundary_facets]
+        cell.add_collection(LineCollection(list(edges), colors="#222222", linewidths=0.35))
+    anchors = problem.anchors.vertices
+    if len(anchors) and problem.dimension == 2:
+        cell.plot(*positions[anchors].T, "o", ms=2.2, color="#0072b2", mec="black", mew=0.3)
+    left, right, bottom, top = frame.extent
+    cell.set(xlim=(left, right), ylim=(bottom, top))
+    _bare(cell)
+
+
+def _caption(column: SheetColumn, item: SheetMap, row: int) -> str:
+    if column.is_constant:
+        return "given"
+    if row == LAST or item.iteration == row:
+        return f"{item.iteration} · {item.seconds:.3g} s" if row == LAST else f"{item.seconds:.3g} s"
+    return f"ended at {item.iteration}"
+
+
+def _draw_source(cell: Axes, problem: Problem, skin: Skin, view: Floats | None, column: SheetColumn) -> None:
+    """The source under the texture that the last map of a contestant gives it."""
+    mesh = problem.mesh
+    points = mesh.vertices if view is None else mesh.vertices @ view.T
+    frame = frame_round(points)
+    square = texture_square(mesh, problem.total_measure)
+    image = textured_picture(points, skin, column.maps[-1].positions, square, frame)
+    cell.imshow(image, extent=frame.extent, origin="lower")
+    cell.set_title(f"source, {column.label}", fontsize=7, pad=2)
+    _bare(cell)
+
+
+def _bare(cell: Axes) -> None:
+    cell.set(xticks=[], yticks=[], aspect="equal")
+    cell.spines[:].set_visible(False)
+
+
+def _distortion_name(problem: Problem) -> str:
+    distortion = problem.distortion
+    return distortion.label if len(distortion.label) <= 60 else f"{distortion.label[:59]}…"

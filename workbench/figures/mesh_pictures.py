@@ -1,0 +1,155 @@
+"""Pictures of a mesh as images: triangles in colours, and a source with a chequered texture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.facets import facet_table
+from workbench.core.mesh import Mesh
+from workbench.figures.raster import Raster, rasterise
+
+PIXELS = 320
+"""Of the longer side of a picture."""
+FINER = 2
+"""Pixels a side that are averaged to one."""
+SQUARES = 14
+"""Of the chequered texture along the side of a square as large as the source."""
+TEXTURE = ((0.96, 0.95, 0.92), (0.20, 0.38, 0.58))
+LIGHT = np.array([-0.35, 0.5, 0.8]) / np.linalg.norm([-0.35, 0.5, 0.8])
+
+
+@dataclass(frozen=True, eq=False)
+class Skin:
+    """What can be seen of a mesh: its triangles, or those that bound its tetrahedra.
+
+    `triangles` : (k, 3) int64;  `simplex` : (k,) int64, the simplex of the mesh that each belongs to
+    """
+
+    triangles: Integers
+    simplex: Integers
+
+
+def skin_of(mesh: Mesh) -> Skin:
+    """The visible triangles of a mesh."""
+    if mesh.dimension == 2:
+        return Skin(mesh.simplices, np.arange(mesh.simplex_count))
+    table = facet_table(mesh.simplices)
+    outer = np.flatnonzero(table.counts[table.facets] == 1)
+    return Skin(table.sides[outer], outer // table.simplex_size)
+
+
+def view_of(mesh: Mesh) -> Floats:
+    """A turn (3, 3) that shows a mesh in space well: rows are the axes to the right, up and to the viewer.
+
+    One looks along the axis in which the mesh is thinnest, from the side that most of an open surface faces, and a
+    little from the side and from above.
+    """
+    extent = np.ptp(mesh.vertices, axis=0)
+    ahead = np.zeros(3)
+    ahead[int(np.argmin(extent))] = 1.0
+    if mesh.dimension == 2:
+        p, q, r = mesh.vertices[mesh.simplices].transpose(1, 0, 2)
+        if np.cross(q - p, r - p).sum(axis=0) @ ahead < -1e-9:
+            ahead = -ahead
+    up = np.array([0.0, 0.0, 1.0]) if abs(ahead[1]) > 0.5 else np.array([0.0, 1.0, 0.0])
+    turned = ahead + 0.35 * np.cross(up, ahead) + 0.25 * up
+    turned /= np.linalg.norm(turned)
+    right = np.cross(up, turned)
+    right /= np.linalg.norm(right)
+    return np.stack([right, np.cross(turned, right), turned])
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Part of the plane that a picture shows: its centre and the half of its width and height."""
+
+    centre: tuple[float, float]
+    half: tuple[float, float]
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """left, right, bottom, top"""
+        (x, y), (w, h) = self.centre, self.half
+        return x - w, x + w, y - h, y + h
+
+    @property
+    def pixels(self) -> tuple[int, int]:
+        """Width and height of the picture."""
+        longer = max(self.half)
+        return max(8, round(PIXELS * self.half[0] / longer)), max(8, round(PIXELS * self.half[1] / longer))
+
+
+def frame_round(points: Floats, half: tuple[float, float] | None = None) -> Frame:
+    """The frame about points (n, 2|3), of their own size with a little air where none is given."""
+    low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
+    if half is None:
+        width, height = 0.52 * np.maximum(high - low, 1e-3 * (high - low).max() + 1e-300)
+        half = (float(width), float(height))
+    return Frame((float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2), half)
+
+
+def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, on_top: Booleans | None = None) -> Floats:
+    """An image (h, w, 4) of triangles in one colour each; transparent where there is none.
+
+    Parameters
+    ----------
+    points : (n, 2|3) float64     in the plane, or turned by `view_of`: then shaded, too
+    colours : (k, 3) float64      of the triangles of `skin`
+    on_top : (k,) bool            triangles that are drawn over the others
+    """
+    raster = _raster(points, skin, frame, on_top)
+    image = raster.of_triangles(colours)
+    if points.shape[1] == 3:
+        image = image * raster.of_triangles(_shades(points, skin))[..., None]
+    return _averaged(image, raster)
+
+
+def textured_picture(points: Floats, skin: Skin, coordinates: Floats, square: float, frame: Frame) -> Floats:
+    """An image (h, w, 4) of triangles under a chequered texture.
+
+    `coordinates` : (n, 2|3) texture coordinates of the vertices;  `square` : side of a square in them
+    """
+    raster = _raster(points, skin, frame, None)
+    place = np.floor(raster.of_vertices(skin.triangles, coordinates) / square)
+    image = np.array(TEXTURE)[(place.sum(axis=2) % 2).astype(np.int64)]
+    if points.shape[1] == 3:
+        image = image * raster.of_triangles(_shades(points, skin))[..., None]
+    return _averaged(image, raster)
+
+
+def texture_square(mesh: Mesh, total_measure: float) -> float:
+    """Side of a square of the texture in the target, from the area or volume of the source."""
+    return float(total_measure ** (1.0 / mesh.dimension)) / SQUARES
+
+
+def _raster(points: Floats, skin: Skin, frame: Frame, on_top: Booleans | None) -> Raster:
+    width, height = (FINER * count for count in frame.pixels)
+    left, right, bottom, top = frame.extent
+    scale = np.array([width / (right - left), height / (top - bottom)])
+    pixels = (points[:, :2] - [left, bottom]) * scale
+    if points.shape[1] == 3:
+        pixels = np.column_stack([pixels, points[:, 2]])
+    return rasterise(pixels, skin.triangles, width, height, None if on_top is None else on_top.astype(np.int64))
+
+
+def _shades(points: Floats, skin: Skin) -> Floats:
+    """(k,) in (0, 1]: how light falls on either side of each triangle."""
+    p, q, r = points[skin.triangles].transpose(1, 0, 2)
+    normal = np.cross(q - p, r - p)
+    length = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
+    normal *= (np.where(normal[:, 2] < 0, -1.0, 1.0) / length)[:, None]
+    result: Floats = 0.45 + 0.55 * np.maximum(normal @ LIGHT, 0.0)
+    return result
+
+
+def _averaged(image: Floats, raster: Raster) -> Floats:
+    """(h, w, 4) from an image of `FINER` times as many pixels a side, and how much of each pixel is covered."""
+    covered = raster.is_covered[..., None].astype(float)
+    full = np.concatenate([image * covered, covered], axis=2)
+    height, width = full.shape[:2]
+    small = full.reshape(height // FINER, FINER, width // FINER, FINER, 4).mean(axis=(1, 3))
+    small[..., :3] /= np.maximum(small[..., 3:], 1e-12)
+    return small
