@@ -182,6 +182,7 @@ def apply_correction(problem: Problem, state: State, direction: Floats, gradient
             first = min(1.0, SAFETY * largest_step(x, direction, problem.elements.simplices)[0])
         most, search = problem.most_inverted(state.inverted), problem.energy_and_inverted
         found = armijo(search, x, direction, energy, 0.0, first, lambda: False, trials=6, most_inverted=most)
+    problem.workspace.counts["trials"] += found.trials
     return replace(
         state,
         positions=found.positions,
@@ -249,6 +250,7 @@ def _push(
         candidate = x + size * direction
         if size == 1.0:
             _place_exactly(problem, candidate)
+        problem.workspace.counts["trials"] += 1
         after = problem.evaluate(candidate, 1)
         allowed = energy + max(4.0 * size * rise, 0.02 * abs(energy))
         if math.isfinite(after.energy) and not (clean and after.inverted) and after.energy <= allowed:
@@ -292,6 +294,7 @@ def _relax(problem: Problem, state: State, energy: float, gradient: Floats, inte
     with problem.workspace.timed("line_search"):
         most = problem.most_inverted(state.inverted)
         found = armijo(problem.energy_and_inverted, x, direction, energy, slope, first, interrupt, most_inverted=most)
+    problem.workspace.counts["trials"] += found.trials
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     relaxed = found.size == 0.0 or energy - found.energy <= 1e-3 * abs(energy)

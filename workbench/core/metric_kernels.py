@@ -31,7 +31,8 @@ def reweighted_metric(  # type: ignore[no-untyped-def]
     lanes = memory.shape[1]
     frames, signed = np.empty((lanes, 3, 3)), np.empty((lanes, 3))
     D, J, V = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-    H, M, k = np.empty((n + 1, n)), np.empty((n, n)), np.empty(n)
+    H, P = np.empty((n + 1, n)), np.empty((n + 1, n + 1))
+    M, k = np.empty((n, n)), np.empty(n)
     for block in range(start, stop, lanes):
         count = min(lanes, stop - block)
         for lane in range(count):
@@ -70,16 +71,17 @@ def reweighted_metric(  # type: ignore[no-untyped-def]
                     for c in range(n):
                         M[i, j] += U[i, c] * k[c] * U[j, c]
             hats_of(inverse_rest, e, H)
+            _products(H, weights[e], P)
             slot = 0
-            for p in range((n + 1) * n):
-                a, i = p // n, p % n
-                for q in range(p, (n + 1) * n):
-                    b, j = q // n, q % n
-                    product = 0.0
-                    for c in range(n):
-                        product += H[a, c] * H[b, c]
-                    values[slots[e, slot]] += weights[e] * product * M[i, j]
-                    slot += 1
+            for a in range(n + 1):
+                for i in range(n):
+                    for j in range(i, n):
+                        values[slots[e, slot]] += P[a, a] * M[i, j]
+                        slot += 1
+                    for b in range(a + 1, n + 1):
+                        for j in range(n):
+                            values[slots[e, slot]] += P[a, b] * M[i, j]
+                            slot += 1
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
@@ -102,7 +104,7 @@ def killing_metric(x, simplices, inverse_rest, weights, slots, start, stop, valu
     """
     n = x.shape[1]
     D, J, inverse = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
-    H, G = np.empty((n + 1, n)), np.empty((n + 1, n))
+    H, G, P = np.empty((n + 1, n)), np.empty((n + 1, n)), np.empty((n + 1, n + 1))
     for e in range(start, stop):
         det = jacobian_of(x, simplices, inverse_rest, e, D, J)
         size = 0.0
@@ -128,14 +130,25 @@ def killing_metric(x, simplices, inverse_rest, weights, slots, start, stop, valu
                 for c in range(n):
                     G[a, j] += H[a, c] * inverse[c, j]
         w = 4.0 * weights[e]
+        _products(G, w, P)
         slot = 0
-        for p in range((n + 1) * n):
-            a, i = p // n, p % n
-            for q in range(p, (n + 1) * n):
-                b, j = q // n, q % n
-                entry = G[b, i] * G[a, j]
-                if i == j:
-                    for c in range(n):
-                        entry += G[a, c] * G[b, c]
-                values[slots[e, slot]] += w * entry
-                slot += 1
+        for a in range(n + 1):
+            for i in range(n):
+                for b in range(a, n + 1):
+                    for j in range(i if b == a else 0, n):
+                        entry = w * G[b, i] * G[a, j]
+                        if i == j:
+                            entry += P[a, b]
+                        values[slots[e, slot]] += entry
+                        slot += 1
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def _products(H, w, P):  # type: ignore[no-untyped-def]
+    """Write w times the inner products of the rows of H into the upper triangle of P."""
+    for a in range(H.shape[0]):
+        for b in range(a, H.shape[0]):
+            total = 0.0
+            for c in range(H.shape[1]):
+                total += H[a, c] * H[b, c]
+            P[a, b] = w * total

@@ -28,7 +28,7 @@ def jacobian_of(x, simplices, inverse_rest, e, D, J):  # type: ignore[no-untyped
     return det
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+@numba.njit(nogil=True, cache=True, error_model="numpy")
 def frames_of(J, det, n, U, s, V):  # type: ignore[no-untyped-def]
     """Write the signed decomposition of J: rotations U and V (3, 3), values s (3,); only the first n rows and columns count."""
     if n == 2:
