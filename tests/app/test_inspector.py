@@ -120,6 +120,18 @@ def test_it_makes_room_and_gives_it_back(window: MainWindow, qtbot: QtBot) -> No
     qtbot.waitUntil(lambda: abs(window.target.view.width() - width) <= 4)
 
 
+def test_it_floats_and_comes_back_into_the_same_window(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
+    size = window.size()
+    inspector.setFloating(True)
+    qtbot.wait(100)
+    inspector.setFloating(False)
+    qtbot.wait(100)
+    assert window.size() == size
+    assert inspector.isVisible()
+    inspector.toggle.trigger()
+    qtbot.waitUntil(lambda: not any(window.tabifiedDockWidgets(dock) for dock in window.maps))
+
+
 # ---------------------------------------------------------------------------------------------- formula and badges
 
 

@@ -59,12 +59,17 @@ class FormulaPage(Page):
         self.inversions = _label(self)
         self.parameters = _label(self)
         self.badges = Badges(self)
+        words = QVBoxLayout()
+        words.setContentsMargins(8, 6, 8, 8)
+        words.setSpacing(7)
+        for widget in (self.text, self.parameters, self.description, self.inversions, self.citation, self.badges):
+            words.addWidget(widget)
         body = QWidget(self)
         layout = QVBoxLayout(body)
-        layout.setContentsMargins(8, 6, 8, 8)
-        layout.setSpacing(7)
-        for widget in (self.text, self.parameters, self.description, self.inversions, self.citation, self.badges):
-            layout.addWidget(widget)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.picture)
+        layout.addLayout(words)
         layout.addStretch(1)
         area = QScrollArea(self)
         area.setWidgetResizable(True)
@@ -73,9 +78,7 @@ class FormulaPage(Page):
         area.setWidget(body)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        outer.setSpacing(0)
-        outer.addWidget(self.picture)
-        outer.addWidget(area, 1)
+        outer.addWidget(area)
 
     def set_theme(self, theme: Theme) -> None:
         self.picture.set_theme(theme)

@@ -39,31 +39,29 @@ def draw_formula(terms: tuple[str, ...], width: int, ratio: float) -> Drawing:
     width : int            logical pixels at most
     ratio : float          pixels of the screen in a logical one
 
-    A formula too wide at the smallest size is drawn as wide as it is. Raises `ValueError` for what mathtext does not know.
+    A formula too wide at the smallest size is as wide as it is. Raises `ValueError` for what mathtext does not know.
     """
-    best: Ink | None = None
+    room = width * ratio
+    # each term is measured once, as large as can be; widths go with the size and nearly add up
+    widths = [_ink(term, SIZES[0], ratio).shape[1] for term in terms]
     for size in SIZES:
-        best = _stack(_lines(terms, size, width * ratio, ratio), round(LINE_GAP * ratio))
-        if best.shape[1] <= width * ratio:
+        lines = _broken(terms, [width * size / SIZES[0] for width in widths], room)
+        if max(sum(line[1]) for line in lines) <= room:
             break
-    assert best is not None
-    return Drawing(best, terms, width, ratio)
+    sheet = _stack([_ink(line[0], size, ratio) for line in lines], round(LINE_GAP * ratio))
+    return Drawing(sheet, terms, width, ratio)
 
 
-def _lines(terms: tuple[str, ...], size: float, room: float, ratio: float) -> list[Ink]:
-    """As many terms a line as there is room for; one line where all fit."""
-    lines: list[Ink] = []
-    text = terms[0]
-    last = _ink(text, size, ratio)
-    for term in terms[1:]:
-        longer = _ink(f"{text} {term}", size, ratio)
-        if longer.shape[1] <= room:
-            text, last = f"{text} {term}", longer
-            continue
-        lines.append(last)
-        text = rf"\quad {term}"
-        last = _ink(text, size, ratio)
-    return [*lines, last]
+def _broken(terms: tuple[str, ...], widths: list[float], room: float) -> list[tuple[str, list[float]]]:
+    """Lines, as many terms each as there is room for, with the widths of these."""
+    lines: list[tuple[str, list[float]]] = [(terms[0], [widths[0]])]
+    for term, width in zip(terms[1:], widths[1:], strict=True):
+        text, before = lines[-1]
+        if sum(before) + width <= room:
+            lines[-1] = (f"{text} {term}", [*before, width])
+        else:
+            lines.append((rf"\quad {term}", [width]))
+    return lines
 
 
 def _stack(lines: list[Ink], gap: int) -> Ink:
@@ -140,8 +138,11 @@ class FormulaPicture(QWidget):
         pixels[..., 3] = ink
         height, width = ink.shape
         self._image = QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
+        room = round(self.drawing.width * self.drawing.ratio)
+        if width > room:
+            self._image = self._image.scaledToWidth(room, Qt.TransformationMode.SmoothTransformation)
         self._image.setDevicePixelRatio(self.drawing.ratio)
-        self.setFixedHeight(max(round(height / self.drawing.ratio) + 18, 56))
+        self.setFixedHeight(max(round(self._image.height() / self.drawing.ratio) + 18, 56))
         self.update()
 
     def sizeHint(self) -> QSize:

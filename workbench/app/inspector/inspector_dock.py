@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
     QComboBox,
@@ -138,7 +138,8 @@ class InspectorDock(QDockWidget):
         self.toggle.triggered.connect(lambda is_open: self._open(window) if is_open else self.hide())
         shown = super().toggleViewAction()
         shown.toggled.connect(self.toggle.setChecked)
-        shown.toggled.connect(lambda is_open: None if is_open else self._give_back(window))
+        # when it begins to float it is hidden for a moment: that is no reason to move others
+        shown.toggled.connect(lambda _: QTimer.singleShot(0, self, lambda: self._give_back(window)))
 
     def toggleViewAction(self) -> QAction:
         """Qt's own would show the dock before there is room for it, and the window would grow."""
@@ -174,6 +175,8 @@ class InspectorDock(QDockWidget):
 
     def _give_back(self, window: QMainWindow) -> None:
         """Lay the colour maps below each other again, where they still stand as they were put."""
+        if not self.isHidden():
+            return
         # where it was not opened in this window, it stands as an earlier window left it
         column = self._column or [dock for dock in self._maps if _is_in_column(window, dock)]
         if not self._made_room and self._column:
