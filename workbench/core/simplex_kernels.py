@@ -1,4 +1,7 @@
-"""One simplex in any dimension n: its Jacobian, its singular frames, its hat gradients, for kernels that are not fused."""
+"""One simplex in any dimension n: its Jacobian, its singular frames, its hat gradients, for kernels that are not fused.
+
+They are called, not inlined: what little time that costs is saved many times over in compilation.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from workbench.core.jacobians import target_edges_3d
 from workbench.core.singular_values import determinant_3x3, signed_svd_2x2, signed_svd_3x3
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+@numba.njit(nogil=True, cache=True, error_model="numpy")
 def jacobian_of(x, simplices, inverse_rest, e, D, J):  # type: ignore[no-untyped-def]
     """Write the Jacobian of simplex e into J, its target edges into D, both (3, 3); returns the determinant, from the edges."""
     n = x.shape[1]
@@ -40,7 +43,7 @@ def frames_of(J, det, n, U, s, V):  # type: ignore[no-untyped-def]
         signed_svd_3x3(J, U, s, V)
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+@numba.njit(nogil=True, cache=True, error_model="numpy")
 def hats_of(inverse_rest, e, H):  # type: ignore[no-untyped-def]
     """Write the gradients of the hat functions of simplex e, in its own frame, into H (n + 1, n)."""
     n = H.shape[1]
