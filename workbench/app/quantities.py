@@ -125,7 +125,7 @@ def _sides(item: Distortion) -> tuple[float | None, float | None]:
     has its centre there.
     """
     with np.errstate(all="ignore"):
-        at_isometry, *others = item.compiled(2).value.evaluate(_trial_values())[:, 0]
+        at_isometry, *others = item.value(_trial_values())
     others = np.array(others)
     others = others[np.isfinite(others)]
     if not len(others) or not np.isfinite(at_isometry):

@@ -70,6 +70,9 @@ class Measure:
         if self.text in DESCRIPTORS and not self.parameters:
             return _DESCRIPTOR_VALUES[self.text]
         distortion = Distortion.resolve(self.text, dict(self.parameters))
+        if distortion.looks_at_start:
+            return lambda map: distortion.value(map.signed)
+        # as `Distortion.value`, but sizes and signs are found once for all measures
         tape, has_barrier = distortion.compiled(dimension).value, distortion.has_barrier(dimension)
 
         def values(map: SingularValues) -> Floats:
