@@ -12,10 +12,11 @@ from workbench.core.mesh import Mesh
 
 
 def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
-    """A function `iterations -> positions (n, 2)` that goes on from where it was; symmetric Dirichlet, free boundary.
+    """A function `iterations -> positions (n, d)` that goes on from where it was; symmetric Dirichlet, free boundary.
 
     Without anchors libigl's matrix is singular by a translation; it regularises that by itself.
     """
+    dimension = start.shape[1]
     points = np.zeros((mesh.vertex_count, 3))
     points[:, : mesh.vertices.shape[1]] = mesh.vertices
     data = igl.slim_precompute(
@@ -24,12 +25,12 @@ def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
         np.asfortranarray(start),
         igl.MappingEnergyType.SYMMETRIC_DIRICHLET,
         np.empty(0, dtype=np.int32),
-        np.asfortranarray(np.empty((0, 2))),
+        np.asfortranarray(np.empty((0, dimension))),
         0.0,
     )
 
     def advance(iterations: int) -> np.ndarray:
-        return np.ascontiguousarray(igl.slim_solve(data, iterations)[:, :2])
+        return np.ascontiguousarray(igl.slim_solve(data, iterations)[:, :dimension])
 
     return advance
 
