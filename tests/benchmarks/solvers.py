@@ -86,7 +86,7 @@ if __name__ == "__main__":
     parser.add_argument("--solvers", default=",".join(sorted(registry().solvers)))
     parser.add_argument("--triangles", type=int, default=5000)
     parser.add_argument("--iterations", type=int, default=1000)
-    parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--seconds", type=float, default=4.0)
     options = parser.parse_args()
     for name in options.meshes.split(","):
         mesh = find_mesh(name, options.triangles)
