@@ -16,7 +16,7 @@ def fill_range_menu(menu: QMenu, colour_range: ColourRange, parent: QWidget) -> 
     hold.toggled.connect(colour_range.hold)
     menu.addAction("Edit its ends…").triggered.connect(lambda: ask_ends(colour_range, parent))
     menu.addSeparator()
-    for text, whole in (("Fit to 98 % of the values", False), ("Fit to all values", True)):
+    for text, whole in (("Fit, leaving out the last 1 %", False), ("Fit to all values", True)):
         fit = menu.addAction(text)
         fit.setCheckable(True)
         fit.setChecked(not colour_range.is_locked and colour_range.is_whole is whole)
