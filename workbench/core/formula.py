@@ -161,7 +161,7 @@ def _read_number(
 
 def names_in_formula(text: str) -> tuple[str, ...]:
     """Names that a formula uses beside functions and singular values, in order of appearance (for parameter forms)."""
-    tree = _parse(text)
+    tree = parse(text)
     known = {"sigma", "n", "det", *FUNCTIONS}
     names = [
         node.id
@@ -181,7 +181,8 @@ def _check_values(graph: Graph, root: int, dimension: int) -> None:
             raise FormulaError(f"The formula is {value} at sigma = ({where}); it must be finite at ordinary singular values.")
 
 
-def _parse(text: str) -> ast.expr:
+def parse(text: str) -> ast.expr:
+    """The syntax tree of a formula, of its characters, length and depth checked; its nodes are not. Raises `FormulaError`."""
     if len(text) > MAXIMUM_LENGTH:
         raise FormulaError(f"The formula has {len(text)} characters; {MAXIMUM_LENGTH} are allowed.", position=MAXIMUM_LENGTH)
     if not text.strip():
@@ -233,7 +234,7 @@ class _Reader:
     def read(self, text: str) -> Value:
         outer, self.text = self.text, text
         try:
-            return self.visit(_parse(text), 1)
+            return self.visit(parse(text), 1)
         finally:
             self.text = outer
 

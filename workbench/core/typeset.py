@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from workbench.core.errors import FormulaError
-from workbench.core.formula import FUNCTIONS, MAXIMUM_DEPTH, _parse
+from workbench.core.formula import FUNCTIONS, MAXIMUM_DEPTH, parse
 
 SUM, BIG, PRODUCT, POWER, ATOM = range(5)
 """How tightly the outermost operation of a piece binds; BIG is a sum or product sign, open to its right."""
@@ -55,7 +55,7 @@ def latex_of_formula(text: str, titles: Mapping[str, str] | None = None) -> str:
 def latex_terms(text: str, titles: Mapping[str, str] | None = None) -> tuple[str, ...]:
     """The terms of the outermost sum, each from the second on with its sign in front: where a long formula may be broken."""
     terms: list[tuple[str, ast.expr]] = []
-    node, typesetter = _parse(text), _Typesetter(titles or {})
+    node, typesetter = parse(text), _Typesetter(titles or {})
     while isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add | ast.Sub) and len(terms) < MAXIMUM_DEPTH:
         terms.append(("+" if isinstance(node.op, ast.Add) else "-", node.right))
         node = node.left
