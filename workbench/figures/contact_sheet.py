@@ -83,12 +83,13 @@ def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequen
     skin = skin_of(mesh)
     view = view_of(mesh) if mesh.vertices.shape[1] == 3 else None
     paint = _colour_scale(problem, columns, skin)
-    figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, (CELL + 0.22) * len(rows) + 1.1), layout="constrained")
+    turned = [[_turned(item.positions, view) for item in column.maps] for column in columns]
+    half = frame_round(np.vstack([points - _middle(points) for each in turned for points in each])).half
+    height = CELL * min(1.5, max(0.3, half[1] / half[0]))
+    figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, (height + 0.3) * len(rows) + 1.1), layout="constrained")
     grid = figure.add_gridspec(1, 2, width_ratios=[CELL * len(columns), TEXTURED])
     left = grid[0].subgridspec(len(rows), len(columns)).subplots(squeeze=False)
     right = grid[1].subgridspec(len(columns), 1).subplots(squeeze=False)[:, 0]
-    turned = [[_turned(item.positions, view) for item in column.maps] for column in columns]
-    half = frame_round(np.vstack([points - _middle(points) for each in turned for points in each])).half
     for j, column in enumerate(columns):
         for i, item in enumerate(column.maps):
             cell = left[i, j]
@@ -116,12 +117,20 @@ def _colour_scale(problem: Problem, columns: Sequence[SheetColumn], skin: Skin) 
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
-    values = np.concatenate([_distortions(problem, item.positions)[skin.simplex] for c in columns for item in c.maps])
-    values = values[np.isfinite(values)]
+    maps = [item.positions for column in columns for item in column.maps]
+    values = np.concatenate([_upright_distortions(problem, positions, skin) for positions in maps])
     low, high = (float(values.min()), float(np.quantile(values, 0.99))) if len(values) else (0.0, 1.0)
     high = max(high, low + 1e-6 * abs(low) + 1e-12)
     norm = LogNorm(low, high) if low > 0 and high > 8 * low else Normalize(low, high)
     return ScalarMappable(norm, ListedColormap(colorcet.palette["CET_L19"][TRIMMED:]))
+
+
+def _upright_distortions(problem: Problem, positions: Floats, skin: Skin) -> Floats:
+    """The finite distortions of what is visible and not inverted."""
+    values = _distortions(problem, positions)[skin.simplex]
+    upright = determinants(problem.elements, positions)[skin.simplex] > 0
+    chosen: Floats = values[upright & np.isfinite(values)]
+    return chosen
 
 
 def _distortions(problem: Problem, positions: Floats) -> Floats:

@@ -23,6 +23,8 @@ DASHES = ("-", "--", "-.", (0, (1, 1.2)), (0, (5, 1, 1, 1, 1, 1)))
 MARKS = ("o", "s", "^", "D", "v", "P", "X")
 PANEL = (3.5, 1.9)
 """Width and height of a panel, inches."""
+MOST_LINEAR = 20.0
+"""Inverted simplices up to which their axis is not logarithmic."""
 QUANTITIES = {
     "energy": "energy",
     "relative_error": "relative error to the best",
@@ -122,11 +124,11 @@ def _draw(panel: Axes, name: str, axis: str, curves: Sequence[Curve]) -> None:
 
 def _plain_ticks(axis: Axis, values: Sequence[float]) -> None:
     """Numbers in full on a logarithmic axis that spans little: 2, 5, 10, 20 instead of powers of ten."""
-    from matplotlib.ticker import LogLocator, NullFormatter
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
     axis.set_minor_formatter(NullFormatter())
     if values and min(values) >= 1e-4 and max(values) < min(1e5, 300 * min(values)):
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)) if max(values) > 6 * min(values) else MaxNLocator(5))
         axis.set_major_formatter("{x:g}")
 
 
@@ -145,9 +147,12 @@ def _scale(panel: Axes, name: str, axis: str, values: Floats, curves: Sequence[C
         panel.set_xscale("log", nonpositive="mask")
         _plain_ticks(panel.xaxis, [x for curve in curves for x in curve.seconds.tolist() if x > 0])
     if name == "inverted":
-        panel.set_yscale("symlog", linthresh=1.0, linscale=0.5)
-        panel.set_ylim(-0.15, 1.3 * max(1.0, float(values.max(initial=0.0))))
+        most = max(1.0, float(values.max(initial=0.0)))
+        if most > MOST_LINEAR:
+            panel.set_yscale("symlog", linthresh=1.0, linscale=0.5)
+        panel.set_ylim(-0.07 * min(most, MOST_LINEAR), 1.1 * most)
         panel.yaxis.set_major_formatter("{x:g}")
+        panel.yaxis.get_major_locator().set_params(**({"integer": True} if most <= MOST_LINEAR else {}))
     elif len(values):
         panel.set_yscale("log", nonpositive="mask")
         if float(values.max()) <= 1.05 * float(values.min()):  # rounding is no curve

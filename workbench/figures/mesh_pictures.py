@@ -113,7 +113,8 @@ def textured_picture(points: Floats, skin: Skin, coordinates: Floats, square: fl
     `coordinates` : (n, 2|3) texture coordinates of the vertices;  `square` : side of a square in them
     """
     raster = _raster(points, skin, frame, None)
-    place = np.floor(raster.of_vertices(skin.triangles, coordinates) / square)
+    # off the corners of squares: a flat side of a solid often lies at a round coordinate
+    place = np.floor(raster.of_vertices(skin.triangles, coordinates) / square + 0.37)
     image = np.array(TEXTURE)[(place.sum(axis=2) % 2).astype(np.int64)]
     if points.shape[1] == 3:
         image = image * raster.of_triangles(_shades(points, skin))[..., None]
@@ -141,7 +142,7 @@ def _shades(points: Floats, skin: Skin) -> Floats:
     normal = np.cross(q - p, r - p)
     length = np.maximum(np.linalg.norm(normal, axis=1), 1e-300)
     normal *= (np.where(normal[:, 2] < 0, -1.0, 1.0) / length)[:, None]
-    result: Floats = 0.45 + 0.55 * np.maximum(normal @ LIGHT, 0.0)
+    result: Floats = 0.62 + 0.38 * np.maximum(normal @ LIGHT, 0.0)
     return result
 
 
