@@ -21,8 +21,11 @@ from workbench.api import (
     parameter,
 )
 
-LADDER = (1.0, 0.7, 0.4, 0.2, 0.1, 0.0)
-"""Share of the projected Hessian in the matrix of a step; the rest is the exact one. Down by a rung a step."""
+LADDER = (1.0, 0.6, 0.3, 0.1, 0.02)
+"""Share of the projected Hessian in the matrix of a step; the rest is the exact one. Down by a rung a step.
+
+Never 0: a map without anchors may turn freely, and the exact Hessian is definite there at a minimum only, if at all.
+"""
 REST = 3
 """Steps on the rung above after a matrix that was not positive definite."""
 SMALLEST_SHIFT = (1e-10,)

@@ -64,8 +64,8 @@ def test_fewer_steps_than_projected_newton_where_the_start_is_far_away(id: str) 
     assert ours.state.iteration < newton.state.iteration
 
 
-def test_with_the_exact_hessian_the_last_steps_are_quadratic() -> None:
-    """Far fewer steps from a decrease of 1e-6 down to rounding than with the projected one, which converges linearly."""
+def test_with_the_exact_hessian_the_last_steps_are_few() -> None:
+    """From a decrease of 1e-6 down to rounding: with the projected one, every step gains a small factor."""
     mesh = make_sample("fingers", triangles=2000)
     start = make_start(mesh, "parameterize", "tutte")
     problem = Problem.create(mesh, "parameterize", registry().distortions["symmetric-dirichlet"])
@@ -74,4 +74,4 @@ def test_with_the_exact_hessian_the_last_steps_are_quadratic() -> None:
         rows = run(registry().solvers[id](), problem, start, tolerance=1e-13).rows
         gained = [(before.energy - after.energy) / after.energy for before, after in pairwise(rows)]
         late[id] = sum(part < 1e-6 for part in gained)
-    assert late["fast"] <= 0.5 * late["projected-newton"]
+    assert late["fast"] <= 0.25 * late["projected-newton"]
