@@ -40,6 +40,7 @@ TEXTS: dict[str, ActionText] = {
     "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),
     "unbrush": ActionText("Clear &brush", ("Esc",), "No simplex is marked any longer (Esc)"),
     "signatures": ActionText("Shape &signatures…", ("Ctrl+H",), "Compare maps by their histograms of (78)"),
+    "race": ActionText("&Race solvers…", ("Ctrl+Shift+R",), "Let solvers run against each other from one start"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
 from workbench.app.help_texts import ABOUT, SHORTCUTS
+from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
 from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, Saver, SaveRequest
@@ -38,6 +39,7 @@ class Commands(QObject):
         self._boundary_search: Background | None = None
         self.signatures: SignatureWindow | None = None
         self.refining = Refining(window)
+        self.racing = Racing(window)
         document = window.document
         deeds: dict[str, Any] = {
             "open": self.ask_open,
@@ -57,6 +59,7 @@ class Commands(QObject):
             "lock": self.hold_ranges,
             "unbrush": window.brush.clear,
             "signatures": self.show_signatures,
+            "race": self.racing.ask,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
@@ -70,6 +73,7 @@ class Commands(QObject):
         if self.signatures is not None:
             self.signatures.wait()
         self.refining.wait()
+        self.racing.close()
         if self._boundary_search is not None:
             self._boundary_search.wait()
 

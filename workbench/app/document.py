@@ -29,6 +29,7 @@ from workbench.engine.messages import (
     SetSolver,
     Snapshot,
     Step,
+    TakeMap,
     Watch,
 )
 from workbench.session.session import Session
@@ -327,6 +328,13 @@ class Document(QObject):
         self.history_restarted.emit()
         if self.wants_to_run:
             self.run()
+
+    def take_map(self, positions: Floats) -> None:
+        """Go on from a map (n, d) of the present mesh that was made elsewhere; it rests until it is run."""
+        if self.loaded is not None:
+            self.pause()
+            self._bridge.post(TakeMap(self.loaded.generation, positions))
+            self.history_restarted.emit()
 
     def stop(self) -> None:
         """End whatever goes on, also what hangs; the last good map stays."""

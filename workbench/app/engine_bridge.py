@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
@@ -40,19 +40,12 @@ def engine_worker(wake: Callable[[], None]) -> Worker:
     return EngineWorker(wake, gives_way=True)
 
 
-class EngineBridge(QObject):
-    """Owner of the worker. All its signals arrive in the GUI thread, snapshots at most once in 12 ms."""
+class ReportBridge(QObject):
+    """Owner of a worker. Each report becomes a signal in the GUI thread; they are taken at most once in 12 ms."""
 
-    ready = Signal(object)
-    progress = Signal(object)
-    loaded = Signal(object)
-    refused = Signal(object)
-    failure = Signal(object)
-    restarted = Signal(object)
-    snapshot = Signal(object)
     _woken = Signal()
 
-    def __init__(self, make_worker: WorkerMaker = engine_worker) -> None:
+    def __init__(self, make_worker: WorkerMaker) -> None:
         super().__init__()
         self._is_pending = False
         self._is_closed = False
@@ -62,16 +55,12 @@ class EngineBridge(QObject):
         self._pause.setInterval(12)
         self._pause.timeout.connect(self._rested)
         self._waits = False
-        self._signals = {
-            Ready: self.ready,
-            Progress: self.progress,
-            Loaded: self.loaded,
-            Refused: self.refused,
-            Failure: self.failure,
-            Restarted: self.restarted,
-            Snapshot: self.snapshot,
-        }
+        self._signals = self._signal_of_report()
         self._worker = make_worker(self._wake)
+
+    def _signal_of_report(self) -> dict[type[Report], Any]:
+        """The signal for each class of report; the others are dropped."""
+        raise NotImplementedError
 
     def start(self) -> None:
         self._worker.start()
@@ -81,7 +70,7 @@ class EngineBridge(QObject):
             self._worker.post(command)
 
     def stop(self) -> None:
-        """End whatever the engine does; it goes on from the last good map."""
+        """End whatever goes on in the process."""
         self._worker.stop()
 
     def close(self) -> None:
@@ -118,3 +107,29 @@ class EngineBridge(QObject):
             signal = self._signals.get(type(report))
             if signal is not None and not self._is_closed:
                 signal.emit(report)
+
+
+class EngineBridge(ReportBridge):
+    """Owner of the engine's worker; after `stop` it goes on from the last good map."""
+
+    ready = Signal(object)
+    progress = Signal(object)
+    loaded = Signal(object)
+    refused = Signal(object)
+    failure = Signal(object)
+    restarted = Signal(object)
+    snapshot = Signal(object)
+
+    def __init__(self, make_worker: WorkerMaker = engine_worker) -> None:
+        super().__init__(make_worker)
+
+    def _signal_of_report(self) -> dict[type[Report], Any]:
+        return {
+            Ready: self.ready,
+            Progress: self.progress,
+            Loaded: self.loaded,
+            Refused: self.refused,
+            Failure: self.failure,
+            Restarted: self.restarted,
+            Snapshot: self.snapshot,
+        }

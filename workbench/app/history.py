@@ -15,8 +15,9 @@ COLUMNS = ("iteration", "seconds", "energy", "gradient_norm", "inverted")
 class History:
     """Columns of `HistoryRow` since the last start. Appending is O(1) a row; reading copies nothing."""
 
-    def __init__(self) -> None:
-        self._table: Floats = np.empty((len(COLUMNS), 256))
+    def __init__(self, columns: tuple[str, ...] = COLUMNS) -> None:
+        self._columns = columns
+        self._table: Floats = np.empty((len(columns), 256))
         self._count = 0
 
     def __len__(self) -> int:
@@ -28,12 +29,12 @@ class History:
     def extend(self, rows: Iterable[HistoryRow]) -> None:
         for row in rows:
             if self._count == self._table.shape[1]:
-                grown = np.empty((len(COLUMNS), 2 * self._count))
+                grown = np.empty((len(self._columns), 2 * self._count))
                 grown[:, : self._count] = self._table
                 self._table = grown
-            self._table[:, self._count] = [getattr(row, name) for name in COLUMNS]
+            self._table[:, self._count] = [getattr(row, name) for name in self._columns]
             self._count += 1
 
     def column(self, name: str) -> Floats:
         """(k,) float64, a view"""
-        return self._table[COLUMNS.index(name), : self._count]
+        return self._table[self._columns.index(name), : self._count]

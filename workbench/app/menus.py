@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def fill_menus(window: MainWindow) -> None:
-    """File, Edit, Solver, Analyse, View, Help."""
+    """File, Edit, Solver, Race, Analyse, View, Help."""
     actions, bar = window.actions_by_name, window.menuBar()
     file_menu = bar.addMenu("&File")
     file_menu.addAction(actions["open"])
@@ -37,6 +37,8 @@ def fill_menus(window: MainWindow) -> None:
     solver = bar.addMenu("&Solver")
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])
+    race = bar.addMenu("Ra&ce")
+    race.addAction(actions["race"])
     analyse = bar.addMenu("&Analyse")
     analyse.addAction(actions["signatures"])
     view = bar.addMenu("&View")

@@ -42,6 +42,7 @@ from workbench.engine.messages import (
     SetProblem,
     SetSolver,
     Step,
+    TakeMap,
 )
 from workbench.engine.starts import adjusted_start, make_start
 
@@ -145,6 +146,10 @@ class EngineLoop:
             self._set_anchors(command)
         elif isinstance(command, Reset):
             self._make_start(command)
+        elif isinstance(command, TakeMap):
+            if command.generation == self._generation and self._problem is not None:
+                self._seconds = 0.0
+                self._start_from(command.positions, 0)
         elif isinstance(command, Run):
             self._limits, self._running, self._steps_left = command, True, 0
             self._begin_run()

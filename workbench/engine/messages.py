@@ -127,6 +127,14 @@ class Reset(Command):
 
 
 @dataclass(frozen=True, eq=False)
+class TakeMap(Command):
+    """Go on from a map (n, d) of the present mesh that was made elsewhere; dropped where `generation` is another mesh's."""
+
+    generation: int
+    positions: Floats
+
+
+@dataclass(frozen=True, eq=False)
 class Restore(Command):
     """Go on from a map of a mesh that was loaded before: what the worker sends to a new process after a crash."""
 

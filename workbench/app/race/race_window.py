@@ -1,0 +1,217 @@
+"""The window of a race: the grid, its one colour bar, the curves, the time axis."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QMainWindow, QSplitter, QToolBar, QVBoxLayout, QWidget
+
+from workbench.app.colour_legend import ColourLegend
+from workbench.app.engine_bridge import WorkerMaker
+from workbench.app.error_bar import ErrorBar
+from workbench.app.icons import icon
+from workbench.app.quantity_book import QuantityBook
+from workbench.app.race.compare_bar import CompareBar
+from workbench.app.race.race_bridge import race_worker
+from workbench.app.race.race_colours import RaceColours
+from workbench.app.race.race_curves import RaceCurves
+from workbench.app.race.race_model import RaceModel
+from workbench.app.race.timeline import Timeline
+from workbench.app.race.view_grid import ViewGrid
+from workbench.app.status_line import ElidedLabel
+from workbench.app.style import style_sheet
+from workbench.app.theme import Theme
+from workbench.engine.race_messages import StartRace
+
+ACTIONS = (
+    ("run", "Run", "Space", "run", "Run or pause all (Space)"),
+    ("step", "Step all", ".", "step", "One iteration of everyone (.)"),
+    ("restart", "Restart", "Home", "reset", "All from the start once more (Home)"),
+    ("stop", "Stop", "Ctrl+.", "stop", "End what hangs; what is shown stays (Ctrl+.)"),
+    ("fit", "Fit views", "F", "fit", "Show all of every map (F)"),
+)
+HOLD_KEY = Qt.Key.Key_Y
+
+
+class RaceWindow(QMainWindow):
+    """Assembles the parts of a race; closing it ends the process in which it runs."""
+
+    set_up_wanted = Signal()
+    take_wanted = Signal(int)
+    switch_wanted = Signal(int)
+    closed = Signal()
+
+    def __init__(
+        self,
+        set_up: StartRace,
+        book: QuantityBook,
+        quantity: str,
+        theme: Theme,
+        parent: QWidget,
+        make_worker: WorkerMaker = race_worker,
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        self.setWindowTitle("Race")
+        self.resize(1560, 940)
+        self._is_closed = False
+        self.theme = theme
+        self.model = RaceModel(set_up, make_worker)
+        self.colours = RaceColours(self.model, book, quantity, self)
+        self.grid = ViewGrid(self.model, self.colours, theme, self)
+        self.legend = ColourLegend(self.colours.range, self)
+        self.curves = RaceCurves(self.model, theme, self)
+        self.timeline = Timeline(self.model, self)
+        self.compare = CompareBar(self.model, book, quantity, self)
+        self.error_bar = ErrorBar(theme, self)
+        self.sentence = ElidedLabel(self)
+        self.statusBar().addWidget(self.sentence, 1)
+        self._make_tool_bar()
+        self._lay_out()
+        self._connect()
+        self.set_theme(theme)
+        self.curves.make_curves()
+
+    # ------------------------------------------------------------------------------------------ making
+
+    def _make_tool_bar(self) -> None:
+        bar = QToolBar("Race", self)
+        bar.setMovable(False)
+        bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.actions_by_name: dict[str, QAction] = {}
+        for name, text, keys, _, tip in ACTIONS:
+            action = QAction(text, self)
+            action.setShortcut(QKeySequence(keys))
+            action.setToolTip(tip)
+            bar.addAction(action)
+            self.actions_by_name[name] = action
+        bar.addSeparator()
+        for name, text, keys in (("set-up", "Contestants…", ""), ("flip", "Flip", "X"), ("live", "Live", "L")):
+            action = QAction(text, self)
+            action.setShortcut(QKeySequence(keys))
+            self.actions_by_name[name] = action
+            if name == "set-up":
+                bar.addAction(action)
+            else:
+                self.addAction(action)
+        self.tool_bar = bar
+        self.addToolBar(bar)
+
+    def _lay_out(self) -> None:
+        left = QWidget(self)
+        layout = QVBoxLayout(left)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addWidget(self.compare)
+        layout.addWidget(self.grid, 1)
+        layout.addWidget(self.legend)
+        splitter = QSplitter(Qt.Orientation.Horizontal, self)
+        splitter.addWidget(left)
+        splitter.addWidget(self.curves)
+        splitter.setChildrenCollapsible(False)
+        splitter.setStretchFactor(0, 1)
+        splitter.setSizes([1090, 470])
+        centre = QWidget(self)
+        outer = QVBoxLayout(centre)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.setSpacing(0)
+        outer.addWidget(self.error_bar)
+        outer.addWidget(splitter, 1)
+        outer.addWidget(self.timeline)
+        self.setCentralWidget(centre)
+
+    def _connect(self) -> None:
+        model = self.model
+        for name, deed in {
+            "run": model.toggle,
+            "step": model.step,
+            "restart": model.restart,
+            "stop": model.stop,
+            "fit": self.grid.fit,
+            "set-up": self.set_up_wanted.emit,
+            "flip": self.compare.flip_button.toggle,
+            "live": model.go_live,
+        }.items():
+            self.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
+        self.compare.chooser.chosen.connect(self.colours.show_quantity)
+        self.compare.mode_chosen.connect(self.colours.show_mode)
+        self.compare.flipped.connect(self.grid.flip)
+        self.colours.restyled.connect(lambda: self.legend.show_range(self.colours.range))
+        self.colours.fitted.connect(lambda: self.legend.show_values(self.colours.values))
+        self.timeline.axis_chosen.connect(self.curves.show_axis)
+        self.timeline.scale_chosen.connect(self.curves.set_logarithmic)
+        self.grid.switch_wanted.connect(self.switch_wanted)
+        self.grid.take_wanted.connect(self.take_wanted)
+        model.phase_changed.connect(self._show_phase)
+        model.told.connect(lambda _: self._say_how_it_stands())
+        model.said.connect(lambda sentence, details: self.error_bar.show_message(sentence, (), details))
+        model.progress.connect(self.say)
+        model.started.connect(self.error_bar.dismiss)
+
+    # ------------------------------------------------------------------------------------------ running
+
+    def open(self, *, run: bool = False) -> None:
+        """Show the window and bring everyone to the start."""
+        self.show()
+        self.model.watch([self.colours.quantity])
+        self.model.open(run=run)
+
+    def begin(self, set_up: StartRace, *, run: bool = False) -> None:
+        """Another race in the same window."""
+        self.model.begin(set_up, run=run)
+        self.grid.make_panes()
+        self.curves.make_curves()
+        self.compare.list_contestants()
+        self.colours.restyled.emit()
+
+    def say(self, sentence: str) -> None:
+        self.sentence.setText(sentence)
+
+    def _show_phase(self) -> None:
+        model, run = self.model, self.actions_by_name["run"]
+        run.setText("Pause" if model.is_running else "Run")
+        run.setIcon(icon("pause" if model.is_running else "run", self.theme))
+        for name in ("run", "step"):
+            self.actions_by_name[name].setEnabled(model.is_ready and not (model.is_over and not model.is_running))
+        self._say_how_it_stands()
+
+    def _say_how_it_stands(self) -> None:
+        frames = [record.frame for record in self.model.records]
+        running = sum(frame is not None and frame.phase == "running" for frame in frames)
+        if not self.model.is_ready:
+            return
+        state = "Running" if self.model.is_running else "Over" if self.model.is_over else "Paused"
+        left = f": {running} of {len(frames)} have steps to take." if running else "."
+        self.say(f"{state}{left} They take turns on one engine; each is charged its own seconds only.")
+
+    def set_theme(self, theme: Theme) -> None:
+        self.theme = theme
+        self.setStyleSheet(style_sheet(theme))
+        for part in (self.grid, self.legend, self.curves, self.error_bar):
+            part.set_theme(theme)  # type: ignore[attr-defined]
+        for name, _, _, picture, _ in ACTIONS:
+            self.actions_by_name[name].setIcon(icon(picture, theme))
+        self._show_phase()
+
+    # ------------------------------------------------------------------------------------------ keys, end
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        if event.key() == HOLD_KEY and not event.isAutoRepeat():
+            self.compare.hold(True)
+        super().keyPressEvent(event)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        if event.key() == HOLD_KEY and not event.isAutoRepeat():
+            self.compare.hold(False)
+        super().keyReleaseEvent(event)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Timers, process, views; then Qt's own."""
+        if not self._is_closed:
+            self._is_closed = True
+            self.colours.stop()
+            self.curves.stop()
+            self.model.close()
+            self.grid.close_views()
+            self.closed.emit()
+        super().closeEvent(event)

@@ -1,0 +1,194 @@
+"""The grid of views: one camera for all, as large as they can be, drawn in turns."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QSize, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QWidget
+
+from workbench.app.race.contestant_pane import ContestantPane
+from workbench.app.race.race_colours import RaceColours
+from workbench.app.race.race_model import RaceModel
+from workbench.app.race.view_turns import ViewTurns
+from workbench.app.theme import Theme
+from workbench.app.views.mesh_view import MeshView, box_corners
+
+GAP = 3
+HEADER_LINES = 2.8
+"""Height of a pane's title, in lines of text."""
+
+
+class ViewGrid(QWidget):
+    """One pane a contestant; `flip` lets two of them change places."""
+
+    switch_wanted = Signal(int)
+    take_wanted = Signal(int)
+
+    def __init__(self, model: RaceModel, colours: RaceColours, theme: Theme, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._model = model
+        self._colours = colours
+        self.theme = theme
+        self.panes: list[ContestantPane] = []
+        self._aspect = 1.0
+        self._wants_fit = True
+        self._is_linking = False
+        self.turns = ViewTurns(self._draw, self)
+        self.setMinimumSize(300, 200)
+        model.started.connect(self._show_mesh)
+        model.map_changed.connect(self._contestant_changed)
+        model.told.connect(self._show_record)
+        colours.restyled.connect(self.restyle)
+        self.make_panes()
+
+    def make_panes(self) -> None:
+        """As many views as there are contestants now."""
+        count = len(self._model.records)
+        while len(self.panes) > count:
+            pane = self.panes.pop()
+            pane.view.close_view()
+            pane.hide()
+            pane.deleteLater()
+        while len(self.panes) < count:
+            pane = ContestantPane(len(self.panes), self.theme, self)
+            pane.view.camera_changed.connect(lambda view=pane.view: self._link(view))
+            pane.tool.fit_wanted.connect(self.fit)
+            pane.switch_wanted.connect(self.switch_wanted)
+            pane.take_wanted.connect(self.take_wanted)
+            pane.set_theme(self.theme)
+            pane.show()
+            self.panes.append(pane)
+        for index, pane in enumerate(self.panes):
+            pane.shown, pane.is_flipped = index, False
+            pane.show_record(self._model.records[index])
+        self._place()
+
+    def set_theme(self, theme: Theme) -> None:
+        self.theme = theme
+        for pane in self.panes:
+            pane.set_theme(theme)
+        self.restyle()
+
+    def close_views(self) -> None:
+        self.turns.stop()
+        for pane in self.panes:
+            pane.view.close_view()
+
+    # ------------------------------------------------------------------------------------------ content
+
+    def _show_mesh(self) -> None:
+        start, set_up = self._model.start, self._model.set_up
+        assert start is not None
+        width, height = np.maximum(np.ptp(start, axis=0), 1e-12)
+        self._aspect = float(width / height)
+        for pane in self.panes:
+            pane.show_mesh(start, set_up.mesh, set_up.anchors)
+        self._place()
+        self.restyle()
+        self.fit()
+
+    def restyle(self) -> None:
+        """Give every view the colours of the one range, and draw it anew."""
+        for index, pane in enumerate(self.panes):
+            surface = pane.view.surface
+            if surface is None:
+                continue
+            if self._colours.is_plain(pane.shown):
+                surface.show_plain()
+            else:
+                surface.show_range(self._colours.range)
+            self.turns.make_stale(index)
+
+    def _contestant_changed(self, index: int) -> None:
+        depends_on_all = self._colours.mode != "own" and index == self._colours.reference
+        for place, pane in enumerate(self.panes):
+            if pane.shown == index or depends_on_all:
+                self.turns.make_stale(place)
+
+    def _show_record(self, index: int) -> None:
+        for pane in self.panes:
+            if pane.shown == index:
+                pane.show_record(self._model.records[index])
+
+    def _draw(self, place: int) -> float:
+        if place >= len(self.panes):
+            return 0.0
+        pane = self.panes[place]
+        pane.show_map(self._model.records[pane.shown], self._colours.values_of(pane.shown))
+        if self._wants_fit and self._has_left(pane):
+            self.fit()
+        return float(pane.view.canvas.seconds)
+
+    def flip(self, first: int, second: int, wanted: bool) -> None:
+        """Show contestant `second` in the place of `first` and the other way round, or both in their own places."""
+        places = {index: index for index in range(len(self.panes))}
+        if wanted:
+            places[first], places[second] = second, first
+        for place, pane in enumerate(self.panes):
+            if pane.shown != places[place] or pane.is_flipped != (places[place] != place):
+                pane.shown, pane.is_flipped = places[place], places[place] != place
+                pane.show_record(self._model.records[pane.shown])
+        self.restyle()
+
+    # ------------------------------------------------------------------------------------------ camera
+
+    def fit(self) -> None:
+        """Show all of all maps, at one scale."""
+        points = [box_corners(p.geometry_shown.points) for p in self.panes if p.geometry_shown is not None]
+        if not points:
+            return
+        pane = self.panes[0]
+        self._set_cameras(pane.view, pane.view.camera.fitted(np.concatenate(points), pane.view.size_in_pixels))
+        self._wants_fit = True
+
+    def _link(self, view: MeshView) -> None:
+        """One view was moved: the others follow."""
+        if not self._is_linking:
+            self._wants_fit = False
+            self._set_cameras(view, view.camera)
+
+    def _set_cameras(self, view: MeshView, camera) -> None:  # type: ignore[no-untyped-def]
+        self._is_linking = True
+        for pane in self.panes:
+            if pane.view is not view or view.camera is not camera:
+                pane.view.set_camera(camera)
+        self._is_linking = False
+
+    def _has_left(self, pane: ContestantPane) -> bool:
+        assert pane.geometry_shown is not None
+        width, height = pane.view.size_in_pixels
+        corners = pane.view.project(box_corners(pane.geometry_shown.points))
+        (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
+        return bool(left < 0 or top < 0 or right > width or bottom > height)
+
+    # ------------------------------------------------------------------------------------------ places
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        self._place()
+
+    def sizeHint(self) -> QSize:
+        return QSize(900, 700)
+
+    def _place(self) -> None:
+        """The number of columns in which the start is drawn largest."""
+        count = len(self.panes)
+        if not count:
+            return
+        header = HEADER_LINES * self.fontMetrics().height()
+
+        def scale(columns: int) -> float:
+            rows = -(-count // columns)
+            width, height = self.width() / columns, self.height() / rows - header
+            return min(width / self._aspect, height)
+
+        columns = max(range(1, count + 1), key=scale)
+        rows = -(-count // columns)
+        for index, pane in enumerate(self.panes):
+            row, column = divmod(index, columns)
+            in_row = min(columns, count - row * columns)
+            left, right = column * self.width() // in_row, (column + 1) * self.width() // in_row
+            top, bottom = row * self.height() // rows, (row + 1) * self.height() // rows
+            pane.setGeometry(left, top, right - left - (GAP if column < in_row - 1 else 0), bottom - top)
+        if self._wants_fit:
+            self.fit()
