@@ -59,6 +59,7 @@ def descend_block(
         steps *= np.minimum(1.0, safety * block.largest_steps(positions, -steps[:, None] * gradient))
     active = np.isfinite(squares) & np.isfinite(before) & (steps * squares > ROUNDING * np.abs(before))
     promise = float((steps * squares)[active].sum())
+    looked_at = len(vertices)
     for _ in range(TRIALS):
         if not active.any():
             break
@@ -68,7 +69,8 @@ def descend_block(
         moving = vertices[active]
         candidate = positions.copy()
         candidate[moving] -= steps[active, None] * gradient[active]
-        block = block.narrowed(active)
+        if 2 * len(moving) < looked_at:  # copying the rest costs as much as computing it
+            block, looked_at = block.narrowed(active), len(moving)
         after = block.energies(density, candidate, strict) + _soft_energies(problem, vertices, candidate)
         accepted = active & (after <= before - SUFFICIENT * steps * squares)
         positions[vertices[accepted]] = candidate[vertices[accepted]]
