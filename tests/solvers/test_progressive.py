@@ -9,6 +9,7 @@ import pytest
 
 from tests.solvers.test_laws import SOURCES, start_of
 from workbench.core.jacobians import signed_singular_values
+from workbench.core.method import Kind
 from workbench.core.problem import Problem
 from workbench.core.progressive_reference import largest_exponent, progressive_problem
 from workbench.core.registry import registry
@@ -54,11 +55,11 @@ def test_exponents_of_extreme_maps_are_finite() -> None:
     assert largest_exponent(np.array([[1.0, 1.0]]), 4.1) == 1.0
 
 
-@pytest.mark.parametrize("id", ["progressive", "fast"])
-def test_fewer_steps_than_projected_newton_where_the_start_is_far_away(id: str) -> None:
-    mesh = make_sample("hilbert", triangles=3000)
-    start = make_start(mesh, "plane", "tutte")
-    problem = Problem.create(mesh, "plane", registry().distortions["symmetric-dirichlet"])
+@pytest.mark.parametrize(("id", "sample", "kind"), [("progressive", "hilbert", "plane"), ("fast", "fingers", "parameterize")])
+def test_fewer_steps_than_projected_newton_where_the_start_is_far_away(id: str, sample: str, kind: Kind) -> None:
+    mesh = make_sample(sample, triangles=3000)
+    start = make_start(mesh, kind, "tutte")
+    problem = Problem.create(mesh, kind, registry().distortions["symmetric-dirichlet"])
     newton, ours = (run(registry().solvers[each](), problem, start, tolerance=1e-8) for each in ("projected-newton", id))
     assert ours.state.energy == pytest.approx(newton.state.energy, rel=1e-3)
     assert ours.state.iteration < newton.state.iteration
