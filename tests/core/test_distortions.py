@@ -14,31 +14,10 @@ from workbench.core.problem import Problem
 from workbench.core.registry import registry
 
 IDS = sorted(registry().distortions)
-KINKED_AT_TIES = {
-    2: {
-        "blend",
-        "exp-blend",
-        "condition-number",
-        "qc-dilatation",
-        "qc-inner",
-        "qc-outer",
-        "spectral",
-        "quasi-isometric",
-        "symmetric-arap",
-    },
-    3: {
-        "blend",
-        "exp-blend",
-        "condition-number",
-        "qc-dilatation",
-        "qc-inner",
-        "qc-outer",
-        "spectral",
-        "quasi-isometric",
-        "symmetric-arap",
-        "ky-fan",
-    },
-}
+EXTREMES = {
+    "blend", "condition-number", "exp-blend", "qc-dilatation", "qc-inner", "qc-outer", "quasi-isometric", "spectral", "symmetric-arap",
+}  # fmt: skip
+KINKED_AT_TIES = {2: EXTREMES, 3: EXTREMES | {"ky-fan"}}
 """Of n: where sigma_i = sigma_j those are not smooth in the map."""
 
 
