@@ -15,7 +15,8 @@ from workbench.core.registry import registry
 
 IDS = sorted(registry().distortions)
 EXTREMES = {
-    "blend", "condition-number", "exp-blend", "qc-dilatation", "qc-inner", "qc-outer", "quasi-isometric", "spectral", "symmetric-arap",
+    "blend", "condition-number", "exp-blend", "qc-dilatation", "qc-inner", "qc-outer", "quasi-isometric", "spectral",
+    "symmetric-arap",
 }  # fmt: skip
 KINKED_AT_TIES = {2: EXTREMES, 3: EXTREMES | {"ky-fan"}}
 """Of n: where sigma_i = sigma_j those are not smooth in the map."""
