@@ -41,11 +41,11 @@ class ChebyshevMemory(Derivatives):
 class Jacobi(DescentSolver):
     """Descent preconditioned by the diagonal of the projected Hessian, accelerated as Chebyshev's semi-iterative method.
 
-    x_(i+1) = x_(i-1) + omega (x_i + t delta - x_(i-1)), omega = 4 / (4 - rho^2 omega) after `delay` plain steps: Wang and
-    Yang's. The diagonal is kept for `refresh` steps, as there. Plain steps have a line search of their own and set t, and
-    with each new diagonal a longer one is tried; an
-    accelerated step that would raise the energy, or cannot be taken without an inversion, is replaced by a plain one and the
-    acceleration starts anew, where they go back and shorten t. rho is one number instead of a trained schedule.
+    x_(i+1) = x_(i-1) + omega (x_i + t delta - x_(i-1)), omega = 4 / (4 - rho^2 omega) after `delay` plain steps, and a diagonal
+    that is kept for `refresh` steps: Wang and Yang's. Plain steps have a line search of their own, which sets t; with each new
+    diagonal a longer one is tried. An accelerated step that would raise the energy, or cannot be taken without an inversion,
+    is replaced by a plain one and the acceleration starts anew, where they go back and shorten t. rho is one number instead
+    of a trained schedule.
     """
 
     id = "jacobi"
