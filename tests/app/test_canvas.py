@@ -11,6 +11,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import bumpy_mesh, grid_mesh
+from workbench.app.colour_range import ColourRange
+from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.theme import LIGHT
 from workbench.app.views import mesh_view
 from workbench.app.views.canvas import CardCanvas, MemoryCanvas
@@ -50,10 +52,12 @@ def pixels(view: MeshView) -> np.ndarray:
 
 @pytest.mark.parametrize("mesh", [grid_mesh(), bumpy_mesh()], ids=["flat", "in space"])
 def test_both_ways_draw_the_same_picture(make_view, mesh: Mesh) -> None:
+    colour_range = ColourRange(LIVE_QUANTITIES[0])
+    colour_range.set_ends(0.0, 1.0)
     pictures = []
     for way in CANVASES:
         view = make_view(way, mesh)
-        view.surface.show_range(0.0, 1.0)
+        view.surface.show_range(colour_range)
         view.surface.set_values(np.linspace(0, 1, mesh.simplex_count), np.zeros(mesh.simplex_count, bool))
         view.refresh()
         pictures.append(pixels(view))
