@@ -16,6 +16,7 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.element_kernels import TIE
 from workbench.core.expression import SWITCH
+from workbench.core.jacobians import jacobian_2d
 from workbench.core.tape import run_tape
 from workbench.core.threads import over_ranges
 
@@ -68,14 +69,7 @@ def _add_hessians(  # type: ignore[no-untyped-def]
         count = min(lanes, stop - block)
         for lane in range(count):
             e = block + lane
-            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-            p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-            q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
-            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
-            det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
-            a, b = p0 * m00 + q0 * m10, p0 * m01 + q0 * m11
-            c, d = p1 * m00 + q1 * m10, p1 * m01 + q1 * m11
+            a, b, c, d, det = jacobian_2d(x, simplices, inverse_rest, e)
             ax, ay = 0.5 * (a + d), 0.5 * (c - b)
             bx, by = 0.5 * (a - d), 0.5 * (c + b)
             alpha, beta = math.sqrt(ax * ax + ay * ay), math.sqrt(bx * bx + by * by)

@@ -20,7 +20,7 @@ import numba
 import numpy as np
 
 from workbench.core.expression import SWITCH
-from workbench.core.jacobians import target_edges_3d
+from workbench.core.jacobians import jacobian_2d, target_edges_3d
 from workbench.core.singular_values import determinant_3x3, half_angle, signed_svd_2x2, signed_svd_3x3
 from workbench.core.tape import run_tape
 
@@ -43,18 +43,11 @@ def energy_2d(  # type: ignore[no-untyped-def]
         count = min(lanes, stop - block)
         for lane in range(count):
             e = block + lane
-            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-            p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-            q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
-            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
-            det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
+            a, b, c, d, det = jacobian_2d(x, simplices, inverse_rest, e)
             if not det > 0.0:
                 inverted += 1
                 if barrier and (len(kept) == 0 or kept[e] > 0.5):
                     return math.inf, inverted
-            a, b = p0 * m00 + q0 * m10, p0 * m01 + q0 * m11
-            c, d = p1 * m00 + q1 * m10, p1 * m01 + q1 * m11
             alpha = math.sqrt((a + d) * (a + d) + (c - b) * (c - b))
             beta = math.sqrt((a - d) * (a - d) + (c + b) * (c + b))
             s1 = 0.5 * (alpha + beta)
@@ -126,15 +119,8 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
         count = min(lanes, stop - block)
         for lane in range(count):
             e = block + lane
-            i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-            p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-            q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-            m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
-            m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
-            det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
-            s1, s2, uc, us, vc, vs = signed_svd_2x2(
-                p0 * m00 + q0 * m10, p0 * m01 + q0 * m11, p1 * m00 + q1 * m10, p1 * m01 + q1 * m11, det
-            )
+            a, b, c, d, det = jacobian_2d(x, simplices, inverse_rest, e)
+            s1, s2, uc, us, vc, vs = signed_svd_2x2(a, b, c, d, det)
             if not det > 0.0:
                 inverted += 1
             memory[0, lane], memory[1, lane] = s1, abs(s2)

@@ -113,18 +113,25 @@ def determinants(elements: Elements, positions: Floats) -> Floats:
     return out
 
 
+@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def jacobian_2d(x, simplices, inverse_rest, e):  # type: ignore[no-untyped-def]
+    """Rows (a, b) and (c, d) of the Jacobian of triangle e, and its determinant from the edges of the target."""
+    i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
+    p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
+    q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
+    m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
+    m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
+    det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
+    a, b = p0 * m00 + q0 * m10, p0 * m01 + q0 * m11
+    c, d = p1 * m00 + q1 * m10, p1 * m01 + q1 * m11
+    return a, b, c, d, det
+
+
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def _singular_values_2d(x, simplices, inverse_rest, out):  # type: ignore[no-untyped-def]
     for e in range(simplices.shape[0]):
-        i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-        p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-        q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-        m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
-        m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
-        det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
-        s1, s2, _, _, _, _ = signed_svd_2x2(
-            p0 * m00 + q0 * m10, p0 * m01 + q0 * m11, p1 * m00 + q1 * m10, p1 * m01 + q1 * m11, det
-        )
+        a, b, c, d, det = jacobian_2d(x, simplices, inverse_rest, e)
+        s1, s2, _, _, _, _ = signed_svd_2x2(a, b, c, d, det)
         out[e, 0], out[e, 1] = s1, s2
 
 

@@ -13,7 +13,7 @@ import numba
 import numpy as np
 
 from workbench.core.arrays import Floats
-from workbench.core.jacobians import Elements, signed_singular_values
+from workbench.core.jacobians import Elements, jacobian_2d, signed_singular_values
 from workbench.core.singular_values import signed_svd_2x2
 
 if TYPE_CHECKING:
@@ -73,16 +73,10 @@ def progressive_problem(problem: Problem, positions: Floats, bound: float, unifo
 def _reference_frames(x, simplices, inverse_rest, t, out):  # type: ignore[no-untyped-def]
     """Inverse rest edges of the reference: those of the source times V diag(sigma^(t - 1)) V^T."""
     for e in range(simplices.shape[0]):
-        i, j, k = simplices[e, 0], simplices[e, 1], simplices[e, 2]
-        p0, p1 = x[j, 0] - x[i, 0], x[j, 1] - x[i, 1]
-        q0, q1 = x[k, 0] - x[i, 0], x[k, 1] - x[i, 1]
-        m00, m01 = inverse_rest[e, 0, 0], inverse_rest[e, 0, 1]
-        m10, m11 = inverse_rest[e, 1, 0], inverse_rest[e, 1, 1]
-        det = (p0 * q1 - p1 * q0) * (m00 * m11 - m01 * m10)
-        s1, s2, _, _, c, s = signed_svd_2x2(
-            p0 * m00 + q0 * m10, p0 * m01 + q0 * m11, p1 * m00 + q1 * m10, p1 * m01 + q1 * m11, det
-        )
+        a, b, c, d, det = jacobian_2d(x, simplices, inverse_rest, e)
+        s1, s2, _, _, vc, vs = signed_svd_2x2(a, b, c, d, det)
         r1, r2 = s1 ** (t - 1.0), s2 ** (t - 1.0)
-        a, b, d = c * c * r1 + s * s * r2, c * s * (r1 - r2), s * s * r1 + c * c * r2
-        out[e, 0, 0], out[e, 0, 1] = m00 * a + m01 * b, m00 * b + m01 * d
-        out[e, 1, 0], out[e, 1, 1] = m10 * a + m11 * b, m10 * b + m11 * d
+        first, both, second = vc * vc * r1 + vs * vs * r2, vc * vs * (r1 - r2), vs * vs * r1 + vc * vc * r2
+        for row in range(2):
+            m0, m1 = inverse_rest[e, row, 0], inverse_rest[e, row, 1]
+            out[e, row, 0], out[e, row, 1] = m0 * first + m1 * both, m0 * both + m1 * second
