@@ -37,7 +37,7 @@ def complex_hessian(problem: Problem, positions: Floats, factors: Factors = "joi
     """
     with problem.workspace.timed("assemble"):
         problem.workspace.counts["hessian"] += 1
-        e, pattern, kept = problem.elements, problem.density.pattern, problem.density._kept
+        e, pattern, kept = problem.elements, problem.density.pattern, problem.density.barrier_flags
         compiled = problem.distortion.compiled(2)
         tape, kink = compiled.majoriser, compiled.is_kinked_at_ties
 

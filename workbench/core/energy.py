@@ -84,7 +84,7 @@ class Energy:
         e = self.elements
         tape = self.distortion.compiled(e.dimension).value
         kernel = energy_2d if e.dimension == 2 else energy_3d
-        barrier, kept = self.has_barrier, self._kept
+        barrier, kept = self.has_barrier, self.barrier_flags
 
         def work(part: int, start: int, stop: int) -> tuple[float, int]:
             return kernel(  # type: ignore[no-any-return]
@@ -108,7 +108,8 @@ class Energy:
         return self._derivatives(positions, compiled.majoriser if project else compiled.hessian, 2, project)
 
     @property
-    def _kept(self) -> Floats:
+    def barrier_flags(self) -> Floats:
+        """`kept`, written out where the distortion has a formula of its own for simplices without a barrier."""
         if self.distortion.looks_at_start and not len(self.kept):
             return np.ones(len(self.elements.simplices))
         return self.kept
@@ -117,7 +118,7 @@ class Energy:
         e = self.elements
         kernel = derivatives_2d if e.dimension == 2 else derivatives_3d
         slots = self.pattern.slots if order == 2 else np.empty((1, 1), dtype=np.int32)
-        kept, kink = self._kept, self.distortion.compiled(e.dimension).is_kinked_at_ties
+        kept, kink = self.barrier_flags, self.distortion.compiled(e.dimension).is_kinked_at_ties
         entry_count = self.pattern.entry_count if order == 2 else 1
 
         def work(part: int, start: int, stop: int) -> tuple[float, int, Floats, Floats]:
@@ -146,7 +147,7 @@ class Energy:
         if not self.has_barrier:
             return False
         inverted = ~(determinants(self.elements, positions) > 0)
-        return bool((inverted & (self._kept > 0.5)).any() if len(self._kept) else inverted.any())
+        return bool((inverted & (self.barrier_flags > 0.5)).any() if len(self.barrier_flags) else inverted.any())
 
     @cached_property
     def has_kinks(self) -> bool:
