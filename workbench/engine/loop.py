@@ -176,6 +176,7 @@ class EngineLoop:
         # Whatever refuses the mesh (a formula that does not exist in its dimension, say) leaves the old one in force.
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
         problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
+        self._configured_solver(self._solver_choice, problem)
         if self._mesh is not None:  # the start that was chosen for another mesh is not for this one
             self._reset = Reset(match_area=self._reset.match_area)
         self._generation = command.generation
@@ -225,7 +226,7 @@ class EngineLoop:
 
     def _start_from(self, start: Floats, iteration: int) -> None:
         assert self._problem is not None
-        self._solver = self._configured_solver(self._solver_choice)
+        self._solver = self._configured_solver(self._solver_choice, self._problem)
         if self._choices.fixed_boundary:
             self._boundary_positions = start[self._boundary()].copy()
         self._problem = self._problem.with_anchors(self._all_anchors()).from_start(start)
@@ -260,18 +261,19 @@ class EngineLoop:
         self._choices = command
 
     def _set_solver(self, command: SetSolver) -> None:
-        solver = self._configured_solver(command)
+        solver = self._configured_solver(command, self._problem)
         self._solver_choice = command
         if self._state is not None:
             self._solver = solver
             self._rebase()
 
-    def _configured_solver(self, choice: SetSolver) -> Solver:
+    def _configured_solver(self, choice: SetSolver, problem: Problem | None) -> Solver:
+        """Raises `WorkbenchError` where the solver does not take the problem."""
         method = registry().solver(choice.solver)
-        if self._mesh is not None and self._kind not in method.kinds:
-            raise WorkbenchError(f"{method.label} does not solve {self._kind} maps; choose another solver.")
-        if self._problem is not None:
-            method.check_distortion(self._problem.distortion)
+        if problem is not None:
+            if problem.kind not in method.kinds:
+                raise WorkbenchError(f"{method.label} does not solve {problem.kind} maps; choose another solver.")
+            method.check_distortion(problem.distortion)
         solver: Solver = method.configured(choice.parameters)
         return solver
 
