@@ -10,7 +10,19 @@ from pathlib import PurePath
 from typing import NoReturn
 
 from workbench import __version__
-from workbench.cli import check, compare, doctor, formula, listing, measure, open_window, refine, signatures, solve
+from workbench.cli import (
+    check,
+    check_solver,
+    compare,
+    doctor,
+    formula,
+    listing,
+    measure,
+    open_window,
+    refine,
+    signatures,
+    solve,
+)
 from workbench.core.errors import WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
@@ -27,6 +39,7 @@ COMMANDS = {
     "signatures": signatures,
     "refine": refine,
     "check": check,
+    "check-solver": check_solver,
     "doctor": doctor,
 }
 

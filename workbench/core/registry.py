@@ -114,13 +114,24 @@ def load_registry(roots: tuple[Path, ...]) -> Registry:
     failures: list[PluginFailure] = []
     for index, root in enumerate(roots):
         for path in _plugin_files(root):
-            try:
-                module = _import_file(path, f"workbench_plugins_{index}.{path.parent.name}.{path.stem}".replace("-", "_"))
-                if not _collect(module, path, found):
-                    raise WorkbenchError("The file defines no Distortion, Initializer or Solver.")
-            except (Exception, SystemExit) as error:
-                failures.append(PluginFailure(path, f"{type(error).__name__}: {error}", traceback.format_exc()))
+            _load_file(path, f"workbench_plugins_{index}.{path.parent.name}.{path.stem}", found, failures)
     return Registry(found.distortions, found.initializers, found.solvers, tuple(failures), found.origins)
+
+
+def load_plugin(path: Path) -> Registry:
+    """What one plugin file defines, or its failure, apart from all others."""
+    found, failures = Registry(), list[PluginFailure]()
+    _load_file(path, f"workbench_plugin_alone.{path.stem}", found, failures)
+    return replace(found, failures=tuple(failures))
+
+
+def _load_file(path: Path, name: str, found: Registry, failures: list[PluginFailure]) -> None:
+    try:
+        module = _import_file(path, name.replace("-", "_"))
+        if not _collect(module, path, found):
+            raise WorkbenchError("The file defines no Distortion, Initializer or Solver.")
+    except (Exception, SystemExit) as error:
+        failures.append(PluginFailure(path, f"{type(error).__name__}: {error}", traceback.format_exc()))
 
 
 def _plugin_files(root: Path) -> list[Path]:
