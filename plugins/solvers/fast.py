@@ -42,8 +42,8 @@ class Fast(ProgressiveSolver):
     """
 
     id = "fast"
-    label = "Fast (progressive, then exact Newton)"
-    short = "fast"
+    label = "Fast Newton"
+    short = "FN"
     citation = "Liu, Ye, Ni, Fu 2018 [LYNF18]; Longva, Löschner, Fernández-Fernández, Larionov, Ascher, Bender 2023"
 
     close: float = parameter(0.3, "relative decrease of a step below which the source is used", minimum=0.0, maximum=1.0)
