@@ -1,8 +1,7 @@
-"""The laws of a solver, over every registered one, on small meshes of every kind, with anchors and without."""
+"""What every registered solver does beside the laws of `workbench.core.solver_laws`: every distortion, constraints, limits."""
 
 from __future__ import annotations
 
-from dataclasses import fields
 from itertools import pairwise
 
 import numpy as np
@@ -88,67 +87,6 @@ def test_energy_never_rises_and_nothing_inverts(id: str, kind: str, anchors: str
     assert result.state.anchor_error <= problem.anchor_tolerance
     assert result.state.energy == pytest.approx(problem.energy(result.state.positions), rel=1e-12)
     assert result.state.inverted == 0
-
-
-@solvers
-@kinds
-@cases
-def test_a_step_changes_none_of_its_inputs_and_repeats_bit_for_bit(id: str, kind: str, anchors: str) -> None:
-    skip_unless_taken(id, kind)
-    problem, x = problem_of(kind, anchors, distortion_of(id))
-    solver = registry().solvers[id]()
-    state = solver.init(problem, x)
-    for _ in range(3):
-        kept = {f.name: getattr(state, f.name) for f in fields(state)}
-        positions = state.positions.copy()
-        first = solver.step(problem, state)
-        second_problem, _ = problem_of(kind, anchors, distortion_of(id))
-        del second_problem
-        assert np.array_equal(state.positions, positions)
-        assert all(getattr(state, name) is value for name, value in kept.items())
-        state = first
-    again_problem, again = problem_of(kind, anchors, distortion_of(id))
-    other = solver.init(again_problem, again)
-    for _ in range(3):
-        other = solver.step(again_problem, other)
-    assert np.array_equal(other.positions, state.positions)
-    assert other.energy == state.energy
-
-
-@solvers
-@kinds
-@cases
-def test_an_interrupt_returns_the_old_positions(id: str, kind: str, anchors: str) -> None:
-    skip_unless_taken(id, kind)
-    problem, x = problem_of(kind, anchors, distortion_of(id))
-    solver = registry().solvers[id]()
-    state = solver.init(problem, x)
-    interrupted = solver.step(problem, state, lambda: True)
-    assert interrupted.status is Status.INTERRUPTED
-    assert interrupted.positions is state.positions
-    assert interrupted.iteration == state.iteration
-
-
-@solvers
-@kinds
-def test_an_inverted_start_is_told_and_not_touched(id: str, kind: str) -> None:
-    skip_unless_taken(id, kind)
-    problem, x = problem_of(kind, "none", distortion_of(id))
-    mirrored = x * np.array([-1.0, 1.0, 1.0][: problem.dimension])
-    result = run(registry().solvers[id](), problem, mirrored)
-    assert result.state.status is Status.INVERTED_START
-    assert np.array_equal(result.state.positions, mirrored)
-    assert len(result.rows) == 1
-
-
-@solvers
-@kinds
-def test_a_start_that_is_not_finite_is_told(id: str, kind: str) -> None:
-    skip_unless_taken(id, kind)
-    problem, x = problem_of(kind, "none", distortion_of(id))
-    bad = x.copy()
-    bad[3, 0] = np.nan
-    assert run(registry().solvers[id](), problem, bad).state.status is Status.NONFINITE
 
 
 @solvers

@@ -29,6 +29,8 @@ LONG = 40
 """Steps of a run whose every map is looked at."""
 REACH = 300
 """Steps in which anchors have to be reached."""
+SILENCE = {"energy": 2, "gradient": 2, "hessian": 2, "factorise": 1}
+"""Computations after which a step has to ask whether to stop."""
 ROUNDING = 1e-13
 
 
@@ -112,33 +114,48 @@ def nothing_inverts(solver: Solver, case: SolverCase) -> str:
 
 def interrupts(solver: Solver, case: SolverCase) -> str:
     """An interrupt returns the old positions within one trial of a line search or one factorisation."""
+    questions, worst = _longest_silence(solver, case)
+    if not questions:
+        return "step 1 never asks whether to stop."
+    for part, (most, allowed) in worst.items():
+        if most > allowed:
+            return f"step 1 goes on for {most} computations ({part}) without asking whether to stop; {allowed} are allowed."
     for asked in (1, 2, 3, 5):
         problem = case.problem()
         state = solver.init(problem, case.start)
-        questions, spent = 0, {}
+        left = asked
 
-        def interrupt(limit: int = asked, problem: Problem = problem) -> bool:
-            nonlocal questions, spent
-            questions += 1
-            if questions == limit:
-                spent = problem.workspace.all_counts()
-            return questions >= limit
+        def interrupt() -> bool:
+            nonlocal left
+            left -= 1
+            return left <= 0
 
         following = solver.step(problem, state, interrupt)
-        if questions < asked:
-            if not questions:
-                return "step 1 never asks whether to stop."
-            break  # the step ended before it was asked to
+        if left > 0:
+            break  # the step ended before it was told to
         if following.status is not Status.INTERRUPTED:
             return f"step 1, told to stop at question {asked}, ended with {following.status.name} instead of INTERRUPTED."
         if not np.array_equal(following.positions, state.positions) or following.iteration != state.iteration:
             return f"step 1, told to stop at question {asked}, did not return the old map."
-        after = problem.workspace.all_counts()
-        for part, allowed in (("energy", 1), ("factorise", 1), ("gradient", 1), ("hessian", 1)):
-            more = after[part] - spent[part]
-            if more > allowed:
-                return f"step 1, told to stop, went on for {more} computations ({part}); at most {allowed} is allowed."
     return ""
+
+
+def _longest_silence(solver: Solver, case: SolverCase) -> tuple[int, dict[str, tuple[int, int]]]:
+    """How often the first step asks whether to stop; the most computations by part between two questions, and the allowed."""
+    problem = case.problem()
+    state = solver.init(problem, case.start)
+    counts = [problem.workspace.all_counts()]
+
+    def record() -> bool:
+        counts.append(problem.workspace.all_counts())
+        return False
+
+    solver.step(problem, state, record)
+    counts.append(problem.workspace.all_counts())
+    worst = {}
+    for part, allowed in SILENCE.items():
+        worst[part] = (max(after[part] - before[part] for before, after in pairwise(counts)), allowed)
+    return len(counts) - 2, worst
 
 
 def anchors_are_reached(solver: Solver, case: SolverCase) -> str:
