@@ -41,6 +41,7 @@ TEXTS: dict[str, ActionText] = {
     "unbrush": ActionText("Clear &brush", ("Esc",), "No simplex is marked any longer (Esc)"),
     "signatures": ActionText("Shape &signatures…", ("Ctrl+H",), "Compare maps by their histograms of (78)"),
     "race": ActionText("&Race solvers…", ("Ctrl+Shift+R",), "Let solvers run against each other from one start"),
+    "dissect": ActionText("A step &dissected…", ("Ctrl+D",), "Direction, bound and line search of the next step"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),

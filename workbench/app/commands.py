@@ -18,6 +18,7 @@ from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, Saver, SaveRequest
 
 if TYPE_CHECKING:
+    from workbench.app.dissection.dissection_window import DissectionWindow
     from workbench.app.main_window import MainWindow
     from workbench.app.signatures.signature_window import SignatureWindow
 
@@ -38,6 +39,7 @@ class Commands(QObject):
         self.saver.failed.connect(lambda sentence: window.error_bar.show_message(sentence))
         self._boundary_search: Background | None = None
         self.signatures: SignatureWindow | None = None
+        self.dissection: DissectionWindow | None = None
         self.refining = Refining(window)
         self.racing = Racing(window)
         document = window.document
@@ -60,6 +62,7 @@ class Commands(QObject):
             "unbrush": window.brush.clear,
             "signatures": self.show_signatures,
             "race": self.racing.ask,
+            "dissect": self.show_dissection,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
@@ -74,6 +77,8 @@ class Commands(QObject):
             self.signatures.wait()
         self.refining.wait()
         self.racing.close()
+        if self.dissection is not None:
+            self.dissection.close()
         if self._boundary_search is not None:
             self._boundary_search.wait()
 
@@ -193,6 +198,25 @@ class Commands(QObject):
             return
         name = f"{source_name(self._document.session.source)}, iteration {snapshot.row.iteration}"
         self.signatures.add_map(mesh, positions, name)
+
+    def show_dissection(self) -> None:
+        """The window that takes the next step apart."""
+        if self._document.mesh is None:
+            return
+        if self.dissection is None:
+            from workbench.app.dissection.dissection_window import DissectionWindow
+
+            self.dissection = DissectionWindow(self._document, self._window.theme, self._window)
+            self.dissection.finished.connect(self._dissection_closed)
+            self._window.theme_switch.changed.connect(self.dissection.set_theme)
+            self.dissection.show()
+        self.dissection.raise_()
+        self.dissection.ask()
+
+    def _dissection_closed(self) -> None:
+        dissection, self.dissection = self.dissection, None
+        if dissection is not None:
+            self._window.theme_switch.changed.disconnect(dissection.set_theme)
 
     def choose_theme(self, choice: str) -> None:
         self._window.settings.theme = choice

@@ -17,6 +17,8 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.engine.messages import (
+    Dissect,
+    Dissected,
     Failure,
     Load,
     Loaded,
@@ -57,6 +59,7 @@ class Document(QObject):
     history_restarted = Signal()
     drag_sent = Signal(int, float)
     refused = Signal(object)
+    dissected = Signal(object)
 
     def __init__(self, bridge: EngineBridge, session: Session | None = None) -> None:
         super().__init__()
@@ -83,6 +86,7 @@ class Document(QObject):
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
         bridge.failure.connect(self._take_failure)
+        bridge.dissected.connect(self._take_dissected)
 
     # ------------------------------------------------------------------------------------------ state
 
@@ -328,6 +332,14 @@ class Document(QObject):
         self.history_restarted.emit()
         if self.wants_to_run:
             self.run()
+
+    def dissect(self) -> None:
+        """Ask for the next step, taken apart; the map stays as it is."""
+        self._bridge.post(Dissect())
+
+    def _take_dissected(self, report: Dissected) -> None:
+        if self.loaded is not None and report.generation == self.loaded.generation:
+            self.dissected.emit(report)
 
     def take_map(self, positions: Floats) -> None:
         """Go on from a map (n, d) of the present mesh that was made elsewhere; it rests until it is run."""

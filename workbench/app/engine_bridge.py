@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from workbench.engine.messages import (
     Command,
+    Dissected,
     Failure,
     Loaded,
     Progress,
@@ -119,6 +120,7 @@ class EngineBridge(ReportBridge):
     failure = Signal(object)
     restarted = Signal(object)
     snapshot = Signal(object)
+    dissected = Signal(object)
 
     def __init__(self, make_worker: WorkerMaker = engine_worker) -> None:
         super().__init__(make_worker)
@@ -132,4 +134,5 @@ class EngineBridge(ReportBridge):
             Failure: self.failure,
             Restarted: self.restarted,
             Snapshot: self.snapshot,
+            Dissected: self.dissected,
         }

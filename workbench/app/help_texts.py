@@ -26,6 +26,7 @@ SHORTCUTS = """
 <tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>
 <tr><td>Ctrl+I</td><td>inspector: formula, properties and plots of the distortion</td></tr>
 <tr><td>Ctrl+Shift+R</td><td>race solvers against each other</td></tr>
+<tr><td>Ctrl+D</td><td>take the next step apart</td></tr>
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
 </table>

@@ -40,7 +40,8 @@ def fill_menus(window: MainWindow) -> None:
     race = bar.addMenu("Ra&ce")
     race.addAction(actions["race"])
     analyse = bar.addMenu("&Analyse")
-    analyse.addAction(actions["signatures"])
+    for name in ("signatures", "dissect"):
+        analyse.addAction(actions[name])
     view = bar.addMenu("&View")
     for name in ("fit", "edges", "lock", "unbrush"):
         view.addAction(actions[name])

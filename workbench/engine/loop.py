@@ -21,12 +21,14 @@ from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
 from workbench.core.run import HistoryRow, history_row
 from workbench.core.solver import Solver
-from workbench.core.state import State
+from workbench.core.state import Approach, State
 from workbench.core.status import Status
 from workbench.engine.admission import check_admissible
 from workbench.engine.hand import HandFollower
 from workbench.engine.messages import (
     Command,
+    Dissect,
+    Dissected,
     Failure,
     Load,
     Loaded,
@@ -161,8 +163,21 @@ class EngineLoop:
         elif isinstance(command, Step):
             self._running, self._steps_left = False, self._steps_left + command.count
             self._begin_run()
+        elif isinstance(command, Dissect):
+            self._dissect()
         elif isinstance(command, Quit):
             self.has_quit = True
+
+    def _dissect(self) -> None:
+        if self._problem is None or self._state is None or self._solver is None:
+            raise WorkbenchError("There is no map yet whose next step could be taken apart; open a mesh first.")
+        from workbench.core.dissection import dissect
+
+        found = dissect(self._solver, self._problem, self._state)
+        # what is the solver's own need not cross the process boundary
+        before, after = (replace(state, memory=None, approach=Approach()) for state in (found.before, found.after))
+        found = replace(found, before=before, after=after)
+        self._publish(Dissected(self._generation, self._solver.label, found, found.after.status.value))
 
     def _load(self, command: Load) -> None:
         from workbench.io.opening import UnsuitableSourceError, open_source

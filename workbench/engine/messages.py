@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.dissection import Dissection
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
@@ -159,6 +160,11 @@ class Watch(Command):
 
 
 @dataclass(frozen=True)
+class Dissect(Command):
+    """Take the next step apart; the map stays as it is, and the run goes on. Answered by `Dissected`."""
+
+
+@dataclass(frozen=True)
 class Quit(Command):
     """End the engine process."""
 
@@ -275,3 +281,13 @@ class Snapshot(Report):
     distortion: str = ""
     rows: tuple[HistoryRow, ...] = ()  # every row since the snapshot before, oldest first; none where nothing was stepped
     singular_values: Any = None
+
+
+@dataclass(frozen=True, eq=False)
+class Dissected(Report):
+    """The next step of the present solver from the present map, taken apart; `message` says how the step would end."""
+
+    generation: int
+    solver: str
+    step: Dissection
+    message: str

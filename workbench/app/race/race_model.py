@@ -153,6 +153,7 @@ class RaceModel(QObject):
         self.start, self.is_ready = report.start, True
         self.progress.emit("")
         self.started.emit()
+        self.phase_changed.emit()
         if self._wants_to_run:
             self.bridge.post(Run())
 

@@ -1,0 +1,104 @@
+"""The energy along a step: the curve, the trials of the line search, the slope, the bound."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QWidget
+
+from workbench.app.docks.plots import calm, paint_axes
+from workbench.app.theme import LIMITING, Theme
+from workbench.core.dissection import Dissection
+
+REACH = 1.1
+"""Part of the curve that fits into the plot, in its longest trial: barriers go up for ever."""
+MOST_ABOVE = 1.5
+"""How far above the maps before and after the plot reaches, in what lies below them."""
+
+
+class EnergyPlot(pg.PlotWidget):  # type: ignore[misc]
+    """E(x + t d) over t; `place_chosen` carries the t under a dragged marker."""
+
+    place_chosen = Signal(float)
+
+    def __init__(self, theme: Theme, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setMinimumSize(320, 240)
+        calm(self.getPlotItem(), self)
+        self.setLabel("bottom", "t")
+        self.setLabel("left", "E(x + t d)")
+        self.curve = self.plot([], [])
+        self.tangent = self.plot([], [])
+        self.trials = self.plot([], [], pen=None, symbol="o", symbolSize=9)
+        self.elsewhere = self.plot([], [], pen=None, symbol="o", symbolSize=8)
+        self.accepted = self.plot([], [], pen=None, symbol="star", symbolSize=16)
+        self.bound = pg.InfiniteLine(0.0, angle=90)
+        self.marker = pg.InfiniteLine(0.0, angle=90, movable=True)
+        for line in (self.bound, self.marker):
+            self.addItem(line, ignoreBounds=True)
+            line.hide()
+        self.marker.sigPositionChanged.connect(lambda line: self.place_chosen.emit(float(line.value())))
+        self.legend = self.getPlotItem().addLegend(offset=(-8, 8), labelTextSize="8pt")
+        for item, name in (
+            (self.curve, "energy"),
+            (self.tangent, "its slope at t = 0"),
+            (self.trials, "trials"),
+            (self.elsewhere, "trials off the line"),
+            (self.accepted, "step taken"),
+        ):
+            self.legend.addItem(item, name)
+        self.set_theme(theme)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.setBackground(theme.view)
+        paint_axes(self.getPlotItem(), theme)
+        self.curve.setPen(pg.mkPen(theme.accent, width=2))
+        self.tangent.setPen(pg.mkPen(theme.faint, width=1.2, style=Qt.PenStyle.DashLine))
+        self.trials.setSymbolBrush(theme.curves[1])
+        self.trials.setSymbolPen(theme.text)
+        self.elsewhere.setSymbolBrush(theme.view)
+        self.elsewhere.setSymbolPen(pg.mkPen(theme.curves[1], width=1.6))
+        self.accepted.setSymbolBrush(theme.curves[2])
+        self.accepted.setSymbolPen(theme.text)
+        self.bound.setPen(pg.mkPen(LIMITING, width=2))
+        self.marker.setPen(pg.mkPen(theme.text, width=1.4, style=Qt.PenStyle.DotLine))
+        self.marker.setHoverPen(pg.mkPen(theme.accent, width=3))
+        for _, label in self.legend.items:
+            label.setText(label.text, color=theme.text, size="8pt")
+
+    def show_step(self, step: Dissection) -> None:
+        """Draw a step; the marker stands where it ends."""
+        sizes, energies = step.curve_sizes, step.curve_energies
+        good = np.isfinite(energies)
+        self.curve.setData(sizes[good], energies[good])
+        first = step.before.energy
+        falls = np.array([0.0, sizes[-1]])
+        self.tangent.setData(falls, first + step.slope * falls)
+        on, finite = step.trial_on_line, np.isfinite(step.trial_energies)
+        for item, rows in ((self.trials, on & finite), (self.elsewhere, ~on & finite)):
+            item.setData(step.trial_sizes[rows], step.trial_energies[rows])
+        taken = [step.step_size] if step.step_size > 0 else []
+        self.accepted.setData(taken, [step.after.energy] * len(taken))
+        has_bound = math.isfinite(step.bound) and step.bound <= 1.05 * float(sizes[-1])
+        self.bound.setVisible(has_bound)
+        if has_bound:
+            self.bound.setValue(step.bound)
+        self.setXRange(0.0, float(sizes[-1]), padding=0.03)
+        self._fit_height(step, good)
+        self.marker.show()
+        self.marker.setBounds((0.0, float(sizes[-1])))
+        self.marker.setValue(step.step_size)
+
+    def _fit_height(self, step: Dissection, good: np.ndarray) -> None:
+        longest = max(step.step_size, float(step.trial_sizes[step.trial_on_line].max(initial=0.0)))
+        walked = step.curve_energies[good & (step.curve_sizes <= REACH * longest)]
+        seen = np.concatenate([[step.before.energy, step.after.energy], walked])
+        low, top = float(seen.min()), float(seen.max())
+        level = max(step.before.energy, step.after.energy)
+        if level > low:
+            top = min(top, level + MOST_ABOVE * (level - low))
+        span = max(top - low, 1e-9 * abs(low), 1e-300)
+        self.setYRange(low - 0.08 * span, top + 0.08 * span, padding=0.0)
