@@ -59,13 +59,12 @@ class Fast(ProgressiveSolver):
         if not progress.rest:
             rung = min(rung + 1, len(LADDER) - 1) if progress.is_close else 0
         while rung:
-            if interrupt():
-                return replace(state, status=Status.INTERRUPTED), progress
-            following = self._mixed(
-                problem, state, evaluation, LADDER[rung] * projected + (1.0 - LADDER[rung]) * exact, interrupt
-            )
+            values = LADDER[rung] * projected + (1.0 - LADDER[rung]) * exact
+            following = self._mixed(problem, state, evaluation, values, interrupt)
             if following is not None:
                 return following, replace(progress, rung=rung, rest=rest)
+            if interrupt():
+                return replace(state, status=Status.INTERRUPTED), progress
             rung, rest = rung - 1, REST
         direction = direction_in_metric(problem, projected, evaluation.gradient)
         following = descend(problem, state, evaluation, direction, interrupt, furthest=self.reach, safety=self.safety)

@@ -64,6 +64,8 @@ class ProgressiveSolver(DescentSolver):
             following = None if reference is problem else self._approach(problem, reference, state, evaluation, interrupt)
             if following is not None:
                 return following
+            if interrupt():
+                return replace(state, status=Status.INTERRUPTED)
         following, progress = self.near(problem, state, evaluation, progress, interrupt)
         return _remembering(following, replace(progress, is_close=True))
 
