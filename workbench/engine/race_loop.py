@@ -21,7 +21,7 @@ from workbench.engine.starts import adjusted_start, make_start
 
 TURN = 0.02
 """Seconds of a turn: between turns commands are read and maps go out."""
-PUBLISH_INTERVAL = 0.05
+PUBLISH_INTERVAL = 0.07
 """Seconds between two maps of one contestant."""
 
 

@@ -24,7 +24,7 @@ PLOTS = (
     ("gradient_norm", "Gradient norm"),
     ("inverted", "Inverted simplices"),
 )
-INTERVAL = 200
+INTERVAL = 400
 """Milliseconds between two pictures of the curves."""
 
 

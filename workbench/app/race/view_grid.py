@@ -107,15 +107,19 @@ class ViewGrid(QWidget):
                 self.turns.make_stale(place)
 
     def _show_record(self, index: int) -> None:
+        """Numbers change with the picture that they belong to; what ends a contestant is told at once."""
+        record = self._model.records[index]
         for pane in self.panes:
-            if pane.shown == index:
-                pane.show_record(self._model.records[index])
+            if pane.shown == index and (record.frame is None or record.frame.phase != "running"):
+                pane.show_record(record)
 
     def _draw(self, place: int) -> float:
         if place >= len(self.panes):
             return 0.0
         pane = self.panes[place]
-        pane.show_map(self._model.records[pane.shown], self._colours.values_of(pane.shown))
+        record = self._model.records[pane.shown]
+        pane.show_map(record, self._colours.values_of(pane.shown))
+        pane.show_record(record)
         if self._wants_fit and self._has_left(pane):
             self.fit()
         return float(pane.view.canvas.seconds)

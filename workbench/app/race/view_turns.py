@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer
 
-LEAST_REST = 3
+LEAST_REST = 2
 """Milliseconds between two pictures at least."""
-REST_FACTOR = 0.25
+REST_FACTOR = 0.1
 """Rest after a picture, as a part of the time that it took."""
 
 
