@@ -8,7 +8,8 @@ import shlex
 import pytest
 
 from workbench.cli.main import build_parser
-from workbench.core.registry import load_registry
+from workbench.core.registry import load_plugin, load_registry
+from workbench.core.solver_laws import try_laws
 
 README = "README.md"
 
@@ -45,6 +46,19 @@ def test_the_example_of_a_plugin_is_one(readme, tmp_path):
     assert not found.failures
     assert set(found.distortions) == {"stretch"}
     found.distortions["stretch"].compiled(2)
+
+
+def test_the_example_of_a_solver_keeps_every_law(readme, tmp_path):
+    lines = code_lines(readme)
+    first = lines.index("from dataclasses import dataclass, replace")
+    last = next(i for i in range(first, len(lines)) if lines[i].startswith("workbench "))
+    path = tmp_path / "conjugate.py"
+    path.write_text("\n".join(lines[first:last]) + "\n")
+    found = load_plugin(path)
+    assert not found.failures
+    assert set(found.solvers) == {"conjugate-gradients"}
+    broken = [finding for finding in try_laws(found.solvers["conjugate-gradients"]()) if not finding.holds]
+    assert not broken
 
 
 def test_links_lead_somewhere(readme, project_root):

@@ -62,6 +62,7 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
         "--rows", type=rows, default=ROWS, metavar="N,...",
         help="iterations on the sheet, `last` for the end (default: 0,1,5,20,last)",
     )  # fmt: skip
+    add("--no-figures", dest="figures", action="store_false", help="tables alone, no curves and no sheet")
     add_problem_options(parser)
     parser.set_defaults(run=run, distortion=None)
 
@@ -108,7 +109,7 @@ def run(options: argparse.Namespace) -> int:
     if not options.quiet:
         print(_text(found))
         print(f"in {options.out}")
-    failures = [row for row in found if row["status"] == "FAILED" or _is_failure(row["status"])]
+    failures = [row for row in found if _is_failure(row["status"])]
     for row in failures:
         print(f"workbench: {row['mesh']}, {row['contestant']}: {row['message']}", file=sys.stderr)
     return RUN_FAILED if failures else 0
@@ -194,7 +195,7 @@ def _write(prepared: list[PreparedProblem], races: list[Race], options: argparse
         write_text(folder / "table.json", json_text(_report(prepared, tables, options)))
         histories = (row for name, race in zip(names, races, strict=True) for row in history_rows(race, name))
         write_text(folder / "history.csv", csv_text(histories))
-        for name, race in zip(names, races, strict=True):
+        for name, race in zip(names, races, strict=True) if options.figures else ():
             place = folder / file_name(name) if len(names) > 1 else folder
             place.mkdir(exist_ok=True)
             _draw(race, name, options.rows, place)
@@ -287,4 +288,4 @@ def _number(value: Any) -> str:
 def _is_failure(status: str) -> bool:
     from workbench.core.status import Status
 
-    return status in Status.__members__ and Status[status].is_failure
+    return status == "FAILED" or (status in Status.__members__ and Status[status].is_failure)
