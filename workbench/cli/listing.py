@@ -195,6 +195,15 @@ def plugins() -> list[Entry]:
     return [*good, *bad]
 
 
+def figures() -> list[Entry]:
+    """Figures for print that other commands write."""
+    return [
+        _entry("figures", "level-curves", "Distortion against the level of refinement", "Fig. 20", option="refine --plot"),
+        _entry("figures", "convergence-curves", "Convergence of solvers over iterations and seconds", option="compare --out"),
+        _entry("figures", "contact-sheet", "Maps of solvers at chosen iterations", "Fig. 11", option="compare --out"),
+    ]
+
+
 def none() -> list[Entry]:
     """A kind of method that has no member yet."""
     return []
@@ -211,6 +220,6 @@ LISTINGS: dict[str, Callable[[], list[Entry]]] = {
     "analyses": analyses,
     "samples": samples,
     "formats": formats,
-    "figures": none,
+    "figures": figures,
     "plugins": plugins,
 }
