@@ -34,6 +34,7 @@ from workbench.app.settings import Settings
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.status_line import StatusLine
 from workbench.app.style import style_sheet
+from workbench.app.switches import Switches
 from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.views.pane import ViewPane
 
@@ -66,6 +67,7 @@ class MainWindow(QMainWindow):
         self.bridge = EngineBridge(make_worker)
         self.document = Document(self.bridge)
         self.history = History()
+        self.switches = Switches(self.document, self.history)
         self.brush = SimplexBrush(self)
         self.quantities = QuantityBook(self)
         self.actions_by_name = make_actions(self, self.theme)
@@ -128,7 +130,7 @@ class MainWindow(QMainWindow):
         self.panel_dock.setWidget(self.panel)
         self.maps = [ColourMapDock(self.quantities, quantity.id, self.theme, self) for quantity in LIVE_QUANTITIES]
         self.histogram = HistogramDock(self.quantities, self.brush, self.theme, self)
-        self.convergence = ConvergenceDock(self.history, self.theme, self)
+        self.convergence = ConvergenceDock(self.history, self.switches, self.theme, self)
         for corner, area in (
             (Qt.Corner.TopLeftCorner, LEFT),
             (Qt.Corner.BottomLeftCorner, LEFT),
@@ -204,6 +206,7 @@ class MainWindow(QMainWindow):
 
     def _restart_history(self) -> None:
         self.history.clear()
+        self.switches.clear()
         self.turns.all_stale()
 
     def _draw_histogram(self) -> None:

@@ -1,4 +1,4 @@
-"""Live convergence curves: energy, gradient norm, inverted count, over iterations or seconds."""
+"""Live convergence curves: energy, gradient norm, inverted count, over iterations or seconds; marks of switches."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ import pyqtgraph as pg
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
+from workbench.app.docks.switch_marks import SwitchMarks
 from workbench.app.history import History
+from workbench.app.switches import Switches
 from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 
@@ -19,12 +21,13 @@ MOST_BINS = 300
 
 
 class ConvergenceDock(QDockWidget):
-    """Three plots side by side with one abscissa; each is one standing curve."""
+    """Three plots side by side with one abscissa; each is one standing curve, with a mark where something was switched."""
 
-    def __init__(self, history: History, theme: Theme, parent: QWidget | None = None) -> None:
+    def __init__(self, history: History, switches: Switches, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__("Convergence", parent)
         self.setObjectName("convergence")
         self._history = history
+        self._switches = switches
         body = QWidget(self)
         layout = QVBoxLayout(body)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -60,6 +63,7 @@ class ConvergenceDock(QDockWidget):
             curve = plot.plot([], [])
             self._plots.append(plot)
             self.curves.append(curve)
+        self.marks = SwitchMarks(self.graphics, self._plots)
         self._set_logarithmic(True)
         self.set_theme(theme)
 
@@ -69,6 +73,7 @@ class ConvergenceDock(QDockWidget):
             curve.setPen(pg.mkPen(colour, width=1.6))
             plot.setTitle(title, color=theme.text, size="9pt")
             paint_axes(plot, theme)
+        self.marks.set_theme(theme)
 
     def _set_logarithmic(self, wanted: bool) -> None:
         # a count may be 0 and has no logarithm
@@ -88,11 +93,14 @@ class ConvergenceDock(QDockWidget):
         # one point alone has no width of its own
         last = float(abscissa[-1]) if len(abscissa) else 0.0
         least_width = 1.0 if self.abscissa.currentData() == "iteration" else 1e-3
+        whole = [(1.0, 0.0)] if self.abscissa.currentData() == "iteration" and last < 4 else None
         for plot in self._plots:
+            plot.getAxis("bottom").setTickSpacing(levels=whole)
             plot.setXRange(float(abscissa[0]) if len(abscissa) else 0.0, max(last, least_width), padding=0.02)
         counts = self._history.column("inverted")
         most = float(counts.max()) if len(counts) else 0.0
         self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)
+        self.marks.show(self._switches, self.abscissa.currentData())
         # a count has no halves
         self._plots[2].getAxis("left").setTickSpacing(levels=[(1.0, 0.0)] if most < 4 else None)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import pyqtgraph as pg
@@ -26,7 +27,7 @@ class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:
         if not self.logMode:
             return list(super().tickStrings(values, scale, spacing))
-        return [short_number(10.0**value) for value in values]
+        return distinct_numbers([10.0**value for value in values])
 
 
 def decade_marks(low: float, high: float, most: int) -> list[float]:
@@ -48,12 +49,21 @@ def decade_marks(low: float, high: float, most: int) -> list[float]:
     return [math.log10(k * step) for k in range(first, last + 1) if k > 0]
 
 
-def short_number(value: float) -> str:
-    """Four digits where the number is of ordinary size, else a power of ten."""
+def distinct_numbers(values: list[float]) -> list[str]:
+    """Numbers as short as they may be and still differ, on an axis that shows a narrow range."""
+    for digits in (1, 2, 3):
+        texts = [short_number(value, digits) for value in values]
+        if len(set(texts)) == len(texts):
+            break
+    return texts
+
+
+def short_number(value: float, digits: int = 1) -> str:
+    """Four digits (`digits` + 3) where the number is of ordinary size, else a power of ten with `digits` after the point."""
     if 1e-3 <= value < 1e4:
-        return f"{value:.4g}"
-    text = f"{value:.1e}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
-    return text.replace(".0e", "e")
+        return f"{value:.{digits + 3}g}"
+    text = f"{value:.{digits}e}".replace("e+0", "e").replace("e-0", "e-").replace("e+", "e")
+    return re.sub(r"\.?0+e", "e", text)
 
 
 def calm(plot: pg.PlotItem, owner: QWidget) -> None:
