@@ -15,7 +15,18 @@ from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
 from workbench.engine.messages import Command, Failure, Pause, Progress, Quit, Refused, Report, Run, SetProblem, Step
 from workbench.engine.race import Contestant, Frame, Limits, Race, Racer
-from workbench.engine.race_messages import Entrant, RaceFrame, RacePhase, RaceStarted, Seek, StartRace, StartWish, Switch
+from workbench.engine.race_messages import (
+    Entrant,
+    RaceFrame,
+    RacePhase,
+    RaceStarted,
+    SaveTables,
+    Seek,
+    StartRace,
+    StartWish,
+    Switch,
+    TablesSaved,
+)
 from workbench.engine.racer import Terms
 from workbench.engine.starts import adjusted_start, make_start
 
@@ -81,6 +92,8 @@ class RaceLoop:
             self._publish_all()
         elif isinstance(command, Switch):
             self._switch(command)
+        elif isinstance(command, SaveTables):
+            self._save(command)
         elif isinstance(command, Quit):
             self.has_quit = True
 
@@ -108,6 +121,18 @@ class RaceLoop:
             distortion, allow = _distortion(command.problem), command.problem.allow_inversions
         racer.rebase(command.sentence, solver=solver, distortion=distortion, allow_inversions=allow)
         self._publish_frame(command.index)
+
+    def _save(self, command: SaveTables) -> None:
+        if self._race is None:
+            raise WorkbenchError("There is no race to save; begin one first.")
+        from workbench.engine.race_table import history_rows, race_table
+        from workbench.io.atomic import filling, write_text
+        from workbench.io.write import csv_text
+
+        with filling(command.folder) as folder:
+            write_text(folder / "table.csv", csv_text(race_table(self._race, command.mesh_name)))
+            write_text(folder / "history.csv", csv_text(history_rows(self._race, command.mesh_name)))
+        self._publish(TablesSaved(command.folder))
 
     # -------------------------------------------------------------------------------------------- turns
 

@@ -83,6 +83,23 @@ class Switch(Command):
         return type(self).__name__, self.index
 
 
+@dataclass(frozen=True)
+class SaveTables(Command):
+    """Write table.csv (a row a contestant) and history.csv (a row an iteration) into a folder; `TablesSaved` answers."""
+
+    interrupts: ClassVar[bool] = False
+
+    folder: str
+    mesh_name: str
+
+
+@dataclass(frozen=True)
+class TablesSaved(Report):
+    """Both tables are in the folder."""
+
+    folder: str
+
+
 @dataclass(frozen=True, eq=False)
 class RaceStarted(Report):
     """All stand on the start line; `start` (n, d)."""

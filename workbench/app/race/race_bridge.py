@@ -9,7 +9,7 @@ from PySide6.QtCore import Signal
 
 from workbench.app.engine_bridge import ReportBridge, Worker, WorkerMaker
 from workbench.engine.messages import Failure, Progress, Refused, Report
-from workbench.engine.race_messages import RaceEnded, RaceFrame, RacePhase, RaceStarted
+from workbench.engine.race_messages import RaceEnded, RaceFrame, RacePhase, RaceStarted, TablesSaved
 
 
 def race_worker(wake: Callable[[], None]) -> Worker:
@@ -29,6 +29,7 @@ class RaceBridge(ReportBridge):
     refused = Signal(object)
     failure = Signal(object)
     ended = Signal(object)
+    saved = Signal(object)
 
     def __init__(self, make_worker: WorkerMaker = race_worker) -> None:
         super().__init__(make_worker)
@@ -42,4 +43,5 @@ class RaceBridge(ReportBridge):
             Refused: self.refused,
             Failure: self.failure,
             RaceEnded: self.ended,
+            TablesSaved: self.saved,
         }

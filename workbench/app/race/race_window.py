@@ -16,6 +16,7 @@ from workbench.app.race.race_bridge import race_worker
 from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_curves import RaceCurves
 from workbench.app.race.race_model import RaceModel
+from workbench.app.race.race_saver import RaceSaver
 from workbench.app.race.timeline import Timeline
 from workbench.app.race.view_grid import ViewGrid
 from workbench.app.status_line import ElidedLabel
@@ -30,6 +31,7 @@ ACTIONS = (
     ("stop", "Stop", "Ctrl+.", "stop", "End what hangs; what is shown stays (Ctrl+.)"),
     ("fit", "Fit views", "F", "fit", "Show all of every map (F)"),
 )
+MORE = (("set-up", "Contestants…", ""), ("save", "Save…", "Ctrl+S"), ("flip", "Flip", "X"), ("live", "Live", "L"))
 HOLD_KEY = Qt.Key.Key_Y
 
 
@@ -64,6 +66,7 @@ class RaceWindow(QMainWindow):
         self.timeline = Timeline(self.model, self)
         self.compare = CompareBar(self.model, book, quantity, self)
         self.error_bar = ErrorBar(theme, self)
+        self.saver = RaceSaver(self.model, self)
         self.sentence = ElidedLabel(self)
         self.statusBar().addWidget(self.sentence, 1)
         self._make_tool_bar()
@@ -86,11 +89,16 @@ class RaceWindow(QMainWindow):
             bar.addAction(action)
             self.actions_by_name[name] = action
         bar.addSeparator()
-        for name, text, keys in (("set-up", "Contestants…", ""), ("flip", "Flip", "X"), ("live", "Live", "L")):
+        for name, text, keys in (
+            ("set-up", "Contestants…", ""),
+            ("save", "Save…", "Ctrl+S"),
+            ("flip", "Flip", "X"),
+            ("live", "Live", "L"),
+        ):
             action = QAction(text, self)
             action.setShortcut(QKeySequence(keys))
             self.actions_by_name[name] = action
-            if name == "set-up":
+            if name in ("set-up", "save"):
                 bar.addAction(action)
             else:
                 self.addAction(action)
@@ -129,6 +137,7 @@ class RaceWindow(QMainWindow):
             "stop": model.stop,
             "fit": self.grid.fit,
             "set-up": self.set_up_wanted.emit,
+            "save": self.saver.ask,
             "flip": self.compare.flip_button.toggle,
             "live": model.go_live,
         }.items():
@@ -147,6 +156,8 @@ class RaceWindow(QMainWindow):
         model.said.connect(lambda sentence, details: self.error_bar.show_message(sentence, (), details))
         model.progress.connect(self.say)
         model.started.connect(self.error_bar.dismiss)
+        self.saver.saved.connect(self.say)
+        self.saver.failed.connect(self.error_bar.show_message)
 
     # ------------------------------------------------------------------------------------------ running
 
@@ -211,6 +222,7 @@ class RaceWindow(QMainWindow):
             self._is_closed = True
             self.colours.stop()
             self.curves.stop()
+            self.saver.wait()
             self.model.close()
             self.grid.close_views()
             self.closed.emit()
