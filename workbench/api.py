@@ -5,6 +5,7 @@ from __future__ import annotations
 from workbench.core.anchor_steps import approach_anchors
 from workbench.core.anderson_mixing import anderson_step
 from workbench.core.arrays import Floats, Integers
+from workbench.core.best_start import best_start
 from workbench.core.blocked_steps import unblocked_direction
 from workbench.core.complex_hessian import complex_hessian
 from workbench.core.constraints import Anchors, LinearConstraints
@@ -99,6 +100,7 @@ __all__ = [
     "anderson_step",
     "approach_anchors",
     "armijo",
+    "best_start",
     "complex_hessian",
     "conformal_energy",
     "convex_outline",

@@ -46,6 +46,8 @@ class Fast(ProgressiveSolver):
     short = "FN"
     citation = "Liu, Ye, Ni, Fu 2018 [LYNF18]; Longva, Löschner, Fernández-Fernández, Larionov, Ascher, Bender 2023"
 
+    initializer = "auto"
+
     close: float = parameter(0.3, "relative decrease of a step below which the source is used", minimum=0.0, maximum=1.0)
     uniform: bool = parameter(False, "every triangle of a reference weighs the same, instead of its area")
 

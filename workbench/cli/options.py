@@ -77,7 +77,8 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--distortion", default="symmetric-dirichlet", metavar="ID|FORMULA", help="default: symmetric-dirichlet")
     add_set_option(parser, "the distortion, the solver or the initializer, the first that has it")
-    add("--init", metavar="ID|FILE", help="start: an initializer, or a map in a file (default: rest; surfaces: tutte)")
+    defaults = "rest; surfaces: tutte, or auto with --solver fast"
+    add("--init", metavar="ID|FILE", help=f"start: an initializer, or a map in a file (default: {defaults})")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
     add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")
     add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")

@@ -23,7 +23,7 @@ from workbench.core.problem import Problem
 from workbench.core.registry import registry
 from workbench.core.solver import Solver
 from workbench.engine.compiling import compile_kernels
-from workbench.engine.starts import DEFAULT_INITIALIZERS, adjusted_start, make_start
+from workbench.engine.starts import adjusted_start, default_initializer, make_start
 from workbench.io.anchors import read_anchors
 from workbench.io.opening import OpenedSource, open_source
 
@@ -72,7 +72,7 @@ def prepare_problem(
     for method in methods:
         if opened.kind not in method.kinds:
             raise WorkbenchError(f"{method.label} does not solve {opened.kind} maps; choose another solver.")
-    initializer, start_file = _initializer(options.init, opened)
+    initializer, start_file = _initializer(options.init, opened, methods)
     starter = registry().initializer(initializer)
     for_distortion, for_solvers, for_start = assign(options.settings, options.distortion, (methods, (starter,)))
     distortion = Distortion.resolve(options.distortion, for_distortion)
@@ -87,7 +87,7 @@ def prepare_problem(
         allow_inversions=options.allow_inversions,
     )
     with _timed(seconds, "start"):
-        start = _start(opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
+        start = _start(problem, opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
     given = PreparedProblem(
         path=str(file), opened=opened, problem=problem, initializer=initializer, start=start, seconds=seconds
     )
@@ -101,10 +101,13 @@ def configured(method: type[Solver], values: Mapping[str, Any], seed: int) -> So
     return method.configured({**_seed(method, seed), **own})
 
 
-def _initializer(text: str | None, opened: OpenedSource) -> tuple[str, str]:
-    """(id, file) of the start: what the user named, else that of the case, else the default of the kind of map."""
+def _initializer(text: str | None, opened: OpenedSource, methods: Sequence[type[Solver]]) -> tuple[str, str]:
+    """(id, file) of the start: what the user named, else that of the case, of the solver, or of the kind of map."""
+    if text is None and opened.start is not None:
+        return "file", ""
     if text is None:
-        return ("file", "") if opened.start is not None else (DEFAULT_INITIALIZERS[opened.kind], "")
+        wished = {method.initializer for method in methods}
+        return default_initializer(opened.kind, wished.pop() if len(wished) == 1 else ""), ""
     known = registry().initializers
     if text in known:
         return text, ""
@@ -113,11 +116,11 @@ def _initializer(text: str | None, opened: OpenedSource) -> tuple[str, str]:
     raise WorkbenchError(f"There is no initializer and no file {text!r}; initializers: {', '.join(sorted(known))}.")
 
 
-def _start(opened: OpenedSource, initializer: str, parameters: Mapping[str, Any], file: str) -> Floats:
+def _start(problem: Problem, opened: OpenedSource, initializer: str, parameters: Mapping[str, Any], file: str) -> Floats:
     if initializer == "file" and not file and opened.start is not None:
         return adjusted_start(opened.mesh, opened.kind, opened.start, match_area=False)
     try:
-        return make_start(opened.mesh, opened.kind, initializer, parameters, file)
+        return make_start(opened.mesh, opened.kind, initializer, parameters, file, problem=problem)
     except (WorkbenchError, MemoryError):
         raise
     except (Exception, SystemExit) as error:

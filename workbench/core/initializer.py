@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from workbench.core.arrays import Floats
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind, Method
+
+if TYPE_CHECKING:
+    from workbench.core.problem import Problem
 
 
 @dataclass(frozen=True)
@@ -19,11 +24,15 @@ class StartRequest:
     mesh : Mesh       the source; for `plane` its vertices have two columns
     kind : Kind       kind of map
     file : str        path that the user named, for the initializer `file`; empty otherwise
+    problem : Problem    what the start will be used for, where that is known
+    make : callable      id -> start (N, d) of another initializer, for those that choose between several
     """
 
     mesh: Mesh
     kind: Kind
     file: str = ""
+    problem: Problem | None = None
+    make: Callable[[str], Floats] | None = None
 
 
 class Initializer(Method, ABC):

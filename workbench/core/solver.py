@@ -37,6 +37,8 @@ class Solver(Method, ABC):
 
     monotone: ClassVar[bool] = True
     """Whether the energy never rises in a step once the anchors are in place."""
+    initializer: ClassVar[str] = ""
+    """Id of the start that it wishes for; empty: the default of the kind of map."""
     distortions: ClassVar[tuple[str, ...]] = ()
     """Ids of the distortions that it can minimise; empty: all."""
 

@@ -26,7 +26,7 @@ def check_admissible(problem: Problem, positions: Floats) -> None:
     values = problem.distortion.value(signed_singular_values(problem.elements, positions))
     bad = np.flatnonzero(~np.isfinite(values))
     if not len(bad):
-        raise WorkbenchError("The energy of the present map is too large for a number with this distortion; the one before stays.")
+        raise WorkbenchError("With this distortion the energy of the present map is too large for a number; the old one stays.")
     noun = "triangle" if problem.dimension == 2 else "tetrahedron"
     raise WorkbenchError(
         f"This distortion is not a finite number on {count_of(len(bad), noun)} of the present map "

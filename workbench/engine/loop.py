@@ -46,7 +46,7 @@ from workbench.engine.messages import (
     Step,
     TakeMap,
 )
-from workbench.engine.starts import adjusted_start, make_start
+from workbench.engine.starts import adjusted_start, default_initializer, make_start
 
 HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
@@ -232,9 +232,10 @@ class EngineLoop:
         else:
             if command.initializer or self._mesh.simplex_count > 20_000:
                 self._publish(Progress("Making the start …"))
-            start = make_start(
-                self._mesh, self._kind, command.initializer, command.parameters, command.file, command.match_area
-            )
+            problem = self._problem.with_anchors(self._all_anchors())
+            wished = registry().solver(self._solver_choice.solver).initializer
+            id = command.initializer or default_initializer(self._kind, wished)
+            start = make_start(self._mesh, self._kind, id, command.parameters, command.file, command.match_area, problem)
         self._reset = command
         self._seconds = 0.0
         self._start_from(start, 0)

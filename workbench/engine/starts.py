@@ -13,9 +13,20 @@ from workbench.core.initializer import StartRequest
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
+from workbench.core.problem import Problem
 from workbench.core.registry import registry
 
+OWN_SCALE = ("rest", "file", "auto")
+"""Initializers whose scale is meant."""
 DEFAULT_INITIALIZERS: dict[Kind, str] = {"plane": "rest", "parameterize": "tutte", "volume": "rest"}
+
+
+def default_initializer(kind: Kind, wished: str = "") -> str:
+    """Id of the start for a kind of map: on a surface the one that the solver wishes for, where it does.
+
+    In the plane and in space the source itself is at hand, and as good a map as there is.
+    """
+    return wished if wished and kind == "parameterize" else DEFAULT_INITIALIZERS[kind]
 
 
 def make_start(
@@ -25,6 +36,7 @@ def make_start(
     parameters: Mapping[str, Any] | None = None,
     file: str = "",
     match_area: bool = True,
+    problem: Problem | None = None,
 ) -> Floats:
     """Positions of the start.
 
@@ -33,6 +45,7 @@ def make_start(
     initializer : str      id; empty for the default of the kind of map
     file : str             for the initializer `file`
     match_area : bool      scale to the total area (volume) of the source; a start at rest has it already
+    problem : Problem      what it is for, for initializers that choose by the energy
 
     Returns
     -------
@@ -44,11 +57,12 @@ def make_start(
     method = registry().initializer(id)
     if kind not in method.kinds:
         raise WorkbenchError(f"{method.label} makes no start for {kind} maps; choose another initializer.")
-    start = method.configured(dict(parameters or {})).start(StartRequest(mesh, kind, file))
+    request = StartRequest(mesh, kind, file, problem, lambda other: make_start(mesh, kind, other))
+    start = method.configured(dict(parameters or {})).start(request)
     start = np.ascontiguousarray(start, dtype=np.float64)
     if start.shape != (mesh.vertex_count, mesh.dimension) or not np.isfinite(start).all():
         raise WorkbenchError(f"{method.label} gave no usable start for this mesh; choose another initializer.")
-    return adjusted_start(mesh, kind, start, match_area and id not in ("rest", "file"))
+    return adjusted_start(mesh, kind, start, match_area and id not in OWN_SCALE)
 
 
 def adjusted_start(mesh: Mesh, kind: Kind, start: Floats, match_area: bool) -> Floats:

@@ -19,7 +19,7 @@ class Session:
     fixes: tuple[str, ...] = ()
     distortion: str = "symmetric-dirichlet"
     distortion_parameters: dict[str, float] = field(default_factory=dict)
-    solver: str = "projected-newton"
+    solver: str = "fast"
     solver_parameters: dict[str, Any] = field(default_factory=dict)
     initializer: str = ""
     initializer_parameters: dict[str, Any] = field(default_factory=dict)

@@ -27,9 +27,9 @@ from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
 from workbench.core.registry import Registry
 from workbench.engine.messages import Refused
+from workbench.engine.starts import default_initializer
 
 KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane"}
-DEFAULT_START = {"plane": "rest", "parameterize": "tutte", "volume": "rest"}
 
 
 class ControlPanel(QScrollArea):
@@ -156,7 +156,9 @@ class ControlPanel(QScrollArea):
             return
         self.distortion.show_choice(session.distortion, session.distortion_parameters)
         self.solver.show_choice(session.solver, session.solver_parameters)
-        start = session.initializer or DEFAULT_START.get(found or "plane", "rest")
+        solver = self._registry.solvers.get(session.solver)
+        wished = solver.initializer if solver is not None else ""
+        start = session.initializer or default_initializer(found or "plane", wished)
         self.start.show_choice(start, session.initializer_parameters)
         self.file_button.setVisible(start == "file")
 
