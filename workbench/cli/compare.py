@@ -78,7 +78,9 @@ def rows(text: str) -> tuple[int, ...]:
 def run(options: argparse.Namespace) -> int:
     """Race on every mesh, then write all results at once."""
     limit_threads(options.threads)
-    _check_place(options.out)
+    from workbench.io.atomic import check_folder
+
+    check_folder(options.out)
     from workbench.cli.preparation import prepare_problem
     from workbench.core.registry import registry
     from workbench.engine.contestants import PRESETS, check_labels, parse_choices
@@ -113,17 +115,6 @@ def run(options: argparse.Namespace) -> int:
     for row in failures:
         print(f"workbench: {row['mesh']}, {row['contestant']}: {row['message']}", file=sys.stderr)
     return RUN_FAILED if failures else 0
-
-
-def _check_place(folder: str) -> None:
-    """Raise `WorkbenchError` unless files can be written into `folder`: better now than after the work is done."""
-    path = Path(folder).absolute()
-    if path.exists() and not path.is_dir():
-        raise WorkbenchError(f"{folder} is a file; name a folder to write into.")
-    if not path.parent.is_dir():
-        raise WorkbenchError(f"There is no folder {path.parent}; make it first, or name another place.")
-    if not os.access(path if path.is_dir() else path.parent, os.W_OK):
-        raise WorkbenchError(f"{folder} may not be written (permission denied); name another place.")
 
 
 def _label_and_file(text: str) -> tuple[str, str]:

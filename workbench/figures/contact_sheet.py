@@ -30,9 +30,15 @@ if TYPE_CHECKING:
 
 LAST = -1
 """The row of the last maps."""
-TRIMMED = 34
+TRIMMED = 60
 """Entries of the colour table left out at its pale end, which would be lost on white paper."""
 INVERTED = (1.0, 0.83, 0.0)
+MOST_SPREAD = 1.8
+"""Times the median size that a map may have for all to be drawn on one scale of length."""
+THICKEST = 0.15
+"""Part of a map's area that the line round it may cover; else it is left out."""
+OUTLINE = 0.35
+"""Width of that line, points."""
 CELL = 1.75
 """Width and height of a picture, inches."""
 TEXTURED = 1.9
@@ -84,8 +90,8 @@ def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequen
     view = view_of(mesh) if mesh.vertices.shape[1] == 3 else None
     paint = _colour_scale(problem, columns, skin)
     turned = [[_turned(item.positions, view) for item in column.maps] for column in columns]
-    half = frame_round(np.vstack([points - _middle(points) for each in turned for points in each])).half
-    height = CELL * min(1.5, max(0.3, half[1] / half[0]))
+    half = _common_half(turned)
+    height = CELL if half is None else CELL * min(1.5, max(0.3, half[1] / half[0]))
     figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, (height + 0.3) * len(rows) + 1.1), layout="constrained")
     grid = figure.add_gridspec(1, 2, width_ratios=[CELL * len(columns), TEXTURED])
     left = grid[0].subgridspec(len(rows), len(columns)).subplots(squeeze=False)
@@ -106,9 +112,26 @@ def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequen
     bar = figure.colorbar(paint, ax=list(left.ravel()), location="bottom", extend="max", shrink=0.6, aspect=40, pad=0.01)
     bar.set_label(_distortion_name(problem), fontsize=8)
     bar.ax.tick_params(labelsize=7)
+    if half is None:
+        title = f"{title} (each map fills its cell)".strip()
     if title:
         figure.suptitle(title, fontsize=10)
     return figure
+
+
+def _common_half(maps: Sequence[Sequence[Floats]]) -> tuple[float, float] | None:
+    """Half the width and height of cells that hold every map on one scale; None where some are far larger than most."""
+    centred = [points[:, :2] - _middle(points[:, :2]) for each in maps for points in each]
+    sizes = np.array([np.abs(points).max() for points in centred])
+    if sizes.max() > MOST_SPREAD * np.median(sizes):
+        return None
+    return frame_round(np.vstack(centred)).half
+
+
+def _square_round(points: Floats) -> tuple[float, float]:
+    """Half the sides of a square that holds a map."""
+    side = max(frame_round(points).half)
+    return side, side
 
 
 def _colour_scale(problem: Problem, columns: Sequence[SheetColumn], skin: Skin) -> ScalarMappable:
@@ -156,7 +179,7 @@ def _draw_target(
     paint: ScalarMappable,
     points: Floats,
     positions: Floats,
-    half: tuple[float, float],
+    half: tuple[float, float] | None,
 ) -> None:
     from matplotlib.collections import LineCollection
 
@@ -164,11 +187,15 @@ def _draw_target(
     values = np.minimum(_distortions(problem, positions)[skin.simplex], np.finfo(float).max)
     colours = paint.to_rgba(values)[:, :3]
     colours[inverted] = INVERTED
-    frame = frame_round(points, half)
+    frame = frame_round(points, half or _square_round(points))
     cell.imshow(coloured_picture(points, skin, colours, frame, inverted), extent=frame.extent, origin="lower")
     if problem.dimension == 2:
         edges = positions[problem.mesh.topology.boundary_facets]
-        cell.add_collection(LineCollection(list(edges), colors="#222222", linewidths=0.35))
+        width = OUTLINE / 72 * 2 * max(frame.half) / CELL  # in the units of the map
+        covered = width * np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).sum()
+        area = np.abs(determinants(problem.elements, positions)) @ problem.elements.rest_measures
+        if covered < THICKEST * area:
+            cell.add_collection(LineCollection(list(edges), colors="#222222", linewidths=OUTLINE))
     anchors = problem.anchors.vertices
     if len(anchors) and problem.dimension == 2:
         cell.plot(*positions[anchors].T, "o", ms=2.2, color="#0072b2", mec="black", mew=0.3)

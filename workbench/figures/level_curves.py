@@ -51,9 +51,7 @@ def _draw(panel: Axes, name: str, curves: Mapping[str, Sequence[LevelMeasures]])
         colour, mark = STYLES[scheme]
         # what is infinite leaves a gap
         values = [row.measures[name] if math.isfinite(row.measures[name]) else math.nan for row in levels]
-        panel.plot(
-            [row.level for row in levels], values, color=colour, marker=mark, ms=4, lw=1.3, label=SCHEMES[scheme]
-        )
+        panel.plot([row.level for row in levels], values, color=colour, marker=mark, ms=4, lw=1.3, label=SCHEMES[scheme])
     shown = [row.measures[name] for levels in curves.values() for row in levels if math.isfinite(row.measures[name])]
     if not shown:
         panel.text(0.5, 0.5, "infinite: inverted simplices", ha="center", va="center", transform=panel.transAxes)

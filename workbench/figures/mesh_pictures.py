@@ -44,8 +44,8 @@ def skin_of(mesh: Mesh) -> Skin:
 def view_of(mesh: Mesh) -> Floats:
     """A turn (3, 3) that shows a mesh in space well: rows are the axes to the right, up and to the viewer.
 
-    One looks along the axis in which the mesh is thinnest, from the side that most of an open surface faces, and a
-    little from the side and from above.
+    One looks along the axis in which the mesh is thinnest, from the side that most of an open surface faces, and, unless
+    it is flat, a little from the side and from above.
     """
     extent = np.ptp(mesh.vertices, axis=0)
     ahead = np.zeros(3)
@@ -55,7 +55,9 @@ def view_of(mesh: Mesh) -> Floats:
         if np.cross(q - p, r - p).sum(axis=0) @ ahead < -1e-9:
             ahead = -ahead
     up = np.array([0.0, 0.0, 1.0]) if abs(ahead[1]) > 0.5 else np.array([0.0, 1.0, 0.0])
-    turned = ahead + 0.35 * np.cross(up, ahead) + 0.25 * up
+    turned = ahead.copy()
+    if extent.min() > 1e-3 * extent.max():
+        turned += 0.35 * np.cross(up, ahead) + 0.25 * up
     turned /= np.linalg.norm(turned)
     right = np.cross(up, turned)
     right /= np.linalg.norm(right)

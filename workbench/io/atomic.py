@@ -21,16 +21,12 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(os.path.realpath(path))
     part = target.with_name(f".{target.stem[:80]}-{secrets.token_hex(4)}{target.suffix}")
     try:
-        if target.is_dir():
-            raise WorkbenchError(f"{path} is a folder; name a file to write.")
-        if not target.parent.is_dir():
-            raise WorkbenchError(f"There is no folder {target.parent}; make it first, or name another place.")
-        yield part
-        os.replace(part, target)
-    except PermissionError:
-        raise WorkbenchError(f"{path} may not be written (permission denied); name another place.") from None
-    except OSError as error:
-        raise WorkbenchError(f"{path} cannot be written: {error.strerror or error}.") from None
+        with _faults_told(path):
+            if target.is_dir():
+                raise WorkbenchError(f"{path} is a folder; name a file to write.")
+            _check_parent(target)
+            yield part
+            os.replace(part, target)
     finally:
         with suppress(OSError):
             part.unlink(missing_ok=True)
@@ -45,25 +41,50 @@ def filling(folder: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(os.path.realpath(folder))
     part = target.with_name(f".{target.name[:80]}-{secrets.token_hex(4)}")
     try:
-        if target.exists() and not target.is_dir():
-            raise WorkbenchError(f"{folder} is a file; name a folder to write into.")
-        if not target.parent.is_dir():
-            raise WorkbenchError(f"There is no folder {target.parent}; make it first, or name another place.")
-        part.mkdir()
-        yield part
-        if target.exists():
-            for file in sorted(path for path in part.rglob("*") if path.is_file()):
-                place = target / file.relative_to(part)
-                place.parent.mkdir(parents=True, exist_ok=True)
-                os.replace(file, place)
-        else:
-            os.replace(part, target)
-    except PermissionError:
-        raise WorkbenchError(f"{folder} may not be written (permission denied); name another place.") from None
-    except OSError as error:
-        raise WorkbenchError(f"{folder} cannot be written: {error.strerror or error}.") from None
+        with _faults_told(folder):
+            check_folder(folder)
+            part.mkdir()
+            yield part
+            if target.exists():
+                _move_files(part, target)
+            else:
+                os.replace(part, target)
     finally:
         shutil.rmtree(part, ignore_errors=True)
+
+
+def check_folder(folder: str | os.PathLike[str]) -> None:
+    """Raises `WorkbenchError` unless `folder` can be filled."""
+    target = Path(os.path.realpath(folder))
+    if target.exists() and not target.is_dir():
+        raise WorkbenchError(f"{folder} is a file; name a folder to write into.")
+    _check_parent(target)
+    if not all(os.access(place, os.W_OK) for place in (target.parent, target) if place.is_dir()):
+        raise WorkbenchError(f"{folder} may not be written (permission denied); name another place.")
+
+
+def _check_parent(target: Path) -> None:
+    if not target.parent.is_dir():
+        raise WorkbenchError(f"There is no folder {target.parent}; make it first, or name another place.")
+
+
+def _move_files(source: Path, target: Path) -> None:
+    """Every file below `source` to the same place below `target`."""
+    for file in sorted(path for path in source.rglob("*") if path.is_file()):
+        place = target / file.relative_to(source)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        os.replace(file, place)
+
+
+@contextmanager
+def _faults_told(path: str | os.PathLike[str]) -> Iterator[None]:
+    """What the operating system refuses is said in a sentence about `path`."""
+    try:
+        yield
+    except PermissionError:
+        raise WorkbenchError(f"{path} may not be written (permission denied); name another place.") from None
+    except OSError as error:
+        raise WorkbenchError(f"{path} cannot be written: {error.strerror or error}.") from None
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
