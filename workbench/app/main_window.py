@@ -36,6 +36,7 @@ from workbench.app.status_line import StatusLine
 from workbench.app.style import style_sheet
 from workbench.app.switches import Switches
 from workbench.app.theme import Theme, ThemeSwitch
+from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
@@ -89,6 +90,7 @@ class MainWindow(QMainWindow):
         self.reporter = Reporter(self)
         self._connect()
         self._apply_theme(self.theme)
+        self.view_memory = ViewMemory(self)
         self._restore_layout()
         # methods are found on a thread: their imports would hold up the first picture
         self._finder = Background(_find_methods, self)
@@ -275,12 +277,14 @@ class MainWindow(QMainWindow):
         if layout is not None:
             self.restoreGeometry(layout[0])
             self.restoreState(layout[1])
+        self.view_memory.restore(self.settings.views())
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Timers, engine, threads, views; then Qt's own."""
         if not self._is_closed:
             self._is_closed = True
             self.settings.save_layout(self.saveGeometry(), self.saveState())
+            self.settings.save_views(self.view_memory.state())
             self.settings.sync()
             self.turns.stop()
             self.presenter.stop()

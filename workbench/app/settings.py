@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ RECENT_FORMULAS = 20
 
 
 class Settings:
-    """Recent files, theme and layout. `path` names a file of its own, so that tests leave the user's alone."""
+    """Recent files, theme, layout and what views show. `path` names a file of its own, so that tests leave the user's alone."""
 
     def __init__(self, path: str | Path | None = None) -> None:
         if path is None:
@@ -73,6 +74,17 @@ class Settings:
         if isinstance(geometry, QByteArray) and isinstance(state, QByteArray):
             return geometry, state
         return None
+
+    def save_views(self, state: dict[str, Any]) -> None:
+        self._store.setValue("views", json.dumps(state))
+
+    def views(self) -> dict[str, Any]:
+        """What views showed; empty where nothing was kept, or nothing that can be read."""
+        try:
+            found = json.loads(str(self._store.value("views", "{}")))
+        except ValueError:
+            return {}
+        return found if isinstance(found, dict) else {}
 
     def sync(self) -> None:
         self._store.sync()

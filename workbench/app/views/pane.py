@@ -28,6 +28,7 @@ class ViewPane(QWidget):
     ) -> None:
         """`styles` are the patterns that are offered beside the quantities of the book: id -> label."""
         super().__init__(parent)
+        self._styles = frozenset(styles)
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(0)
@@ -50,6 +51,10 @@ class ViewPane(QWidget):
         self.legend = ColourLegend(book.range_of(book.quantities[0].id), self)
         self.legend.hide()
         self._layout.addWidget(self.legend)
+
+    def offers(self, style: str) -> bool:
+        """Whether a pattern is one of this view's."""
+        return style in self._styles
 
     def set_style(self, id: str) -> None:
         self.chooser.show_choice(id)

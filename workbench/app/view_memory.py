@@ -1,0 +1,151 @@
+"""What each view and panel shows, kept from one use of the window to the next."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from workbench.app.quantities import Quantity
+from workbench.core.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+Plain = dict[str, Any]
+"""Texts, numbers, yes and no, and tables of them: what a settings file can hold."""
+
+
+class ViewMemory:
+    """Quantities of views and panels, scales of colours, choices of histogram, curves and inspector.
+
+    Ends that were set by hand belong to a mesh and are not kept. What can no longer be shown, as a formula of one's own
+    that was deleted, leaves the view as it begins.
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self._begins = {name: self._shown(name) for name in self._names}
+        self._waiting: Plain = {}
+        self._scales: Plain = {}
+        window.quantities.listed.connect(self._go_on)
+
+    @property
+    def _names(self) -> tuple[str, ...]:
+        return ("source", "target", *(dock.objectName() for dock in self._panels))
+
+    @property
+    def _panels(self) -> list[Any]:
+        return [*self._window.maps, self._window.histogram]
+
+    def _shown(self, name: str) -> str:
+        """Name of a pattern, or id of a quantity."""
+        window = self._window
+        if name in ("source", "target"):
+            return window.colouring.style_of(getattr(window, name))
+        return next(str(dock.quantity) for dock in self._panels if dock.objectName() == name)
+
+    def _show(self, name: str, id: str) -> None:
+        window = self._window
+        if name in ("source", "target"):
+            window.colouring.set_style(getattr(window, name), id)
+        else:
+            next(dock for dock in self._panels if dock.objectName() == name).show_quantity(id)
+
+    # ------------------------------------------------------------------------------------------ keeping
+
+    def state(self) -> Plain:
+        """Everything that is kept, as plain values."""
+        window, book = self._window, self._window.quantities
+        shown = {name: self._shown(name) for name in self._names}
+        # what still waits for its formula to be found is kept as it was
+        views = {name: _words(book[id]) if id in book else id for name, id in shown.items()} | self._waiting
+        scales = {
+            r.quantity.id: {"logarithmic": r.is_logarithmic, "reversed": r.is_reversed, "whole": r.is_whole}
+            for r in book.ranges()
+            if r.is_logarithmic != r.quantity.is_logarithmic or r.is_reversed or r.is_whole
+        }
+        return {
+            "views": views,
+            "scales": self._scales | scales,
+            "histogram": {
+                "weighted": window.histogram.is_weighted,
+                "logarithmic": window.histogram.has_logarithmic_counts,
+            },
+            "convergence": {
+                "abscissa": window.convergence.abscissa.currentIndex(),
+                "logarithmic": window.convergence.logarithmic.isChecked(),
+            },
+            "inspector": {"page": window.inspector.tabs.currentIndex()},
+        }
+
+    # ------------------------------------------------------------------------------------------ taking up
+
+    def restore(self, state: Plain) -> None:
+        """Show what was kept; what needs the methods is shown when they are listed. Values of another kind are passed over."""
+        window = self._window
+        histogram, curves = _table(state, "histogram"), _table(state, "convergence")
+        window.histogram.set_weighted(histogram.get("weighted") is True)
+        window.histogram.set_logarithmic_counts(histogram.get("logarithmic") is True)
+        window.convergence.logarithmic.setChecked(curves.get("logarithmic") is not False)
+        _choose(window.convergence.abscissa, curves.get("abscissa"))
+        _choose(window.inspector.tabs, _table(state, "inspector").get("page"))
+        self._waiting = {name: words for name, words in _table(state, "views").items() if name in self._begins}
+        self._scales = _table(state, "scales")
+        self._go_on()
+
+    def _go_on(self) -> None:
+        """Show what can be shown by now, but where the user has chosen something else meanwhile."""
+        book = self._window.quantities
+        for name, words in list(self._waiting.items()):
+            id = self._id_of(name, words)
+            if id is not None or book.is_listed:
+                self._waiting.pop(name, None)
+            if id is not None and self._shown(name) == self._begins[name] != id:
+                self._show(name, id)
+        for id in [id for id in self._scales if id in book]:
+            self._set_scale(id, self._scales.pop(id))
+        if book.is_listed:
+            self._scales = {}
+
+    def _id_of(self, name: str, words: object) -> str | None:
+        """The pattern or quantity that is meant; None where there is none, or not yet."""
+        book = self._window.quantities
+        if isinstance(words, str):
+            is_pattern = name in ("source", "target") and getattr(self._window, name).offers(words)
+            return words if is_pattern or words in book else None
+        if not isinstance(words, dict) or not book.is_listed:
+            return None
+        parameters = _table(words, "parameters")
+        if not all(isinstance(value, int | float) for value in parameters.values()):
+            return None
+        try:
+            return book.add_formula(str(words.get("formula", "")), parameters).id
+        except WorkbenchError:
+            return None
+
+    def _set_scale(self, id: str, scale: object) -> None:
+        if not isinstance(scale, dict):
+            return
+        colour_range = self._window.quantities.range_of(id)
+        if isinstance(scale.get("logarithmic"), bool):
+            colour_range.set_logarithmic(scale["logarithmic"])
+        colour_range.set_reversed(scale.get("reversed") is True)
+        if scale.get("whole") is True:
+            colour_range.fit(whole=True)
+
+
+def _words(quantity: Quantity) -> object:
+    """What a quantity is found again by: its id, or the formula that was typed for it."""
+    if quantity.group != "typed":
+        return quantity.id
+    return {"formula": quantity.text, "parameters": dict(quantity.parameters)}
+
+
+def _table(state: Plain, name: str) -> Plain:
+    found = state.get(name)
+    return dict(found) if isinstance(found, dict) else {}
+
+
+def _choose(widget: Any, index: object) -> None:
+    """Choose a row or a tab by its number, where there is one."""
+    if isinstance(index, int) and 0 <= index < widget.count():
+        widget.setCurrentIndex(index)
