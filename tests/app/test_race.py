@@ -61,6 +61,7 @@ def activate(race: RaceWindow) -> None:
     """Keys go to the active window only."""
     race.activateWindow()
     QTest.qWaitForWindowActive(race)
+    QTest.qWait(50)  # shortcuts follow a moment later
 
 
 def finish(race: RaceWindow, qtbot: QtBot) -> None:
