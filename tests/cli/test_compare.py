@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from tests.cli.conftest import strict_json, write_obj
+from workbench.cli.compare import PRESET_IDS
 from workbench.core.status import Status
+from workbench.engine.contestants import PRESETS
 from workbench.io.write import write_map
 
 FILES = {
@@ -211,3 +213,18 @@ def test_meshes_of_one_name_are_told_apart(cli, square, square_file, tmp_path):
     out = tmp_path / "race"
     assert cli("compare", square_file, second, "--solvers", "slim", "--no-figures", "--quiet", "--out", out).status == 0
     assert [row["mesh"] for row in rows_of(out / "table.csv")] == ["square", "square-2"]
+
+
+def test_nothing_is_half_written(cli, square_file, tmp_path, monkeypatch):
+    def fails(*arguments):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("workbench.cli.compare._draw", fails)
+    result = cli("compare", square_file, "--solvers", "slim", "--quiet", "--out", tmp_path / "race")
+    assert result.status == 2 and "No space left on device" in result.err
+    assert os.listdir(tmp_path) == ["square.obj"]
+
+
+def test_every_preset_can_be_named():
+    assert set(PRESET_IDS) == set(PRESETS)
+    assert all(len(preset.contestants()) >= 2 for preset in PRESETS.values())
