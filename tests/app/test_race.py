@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import os
+import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -400,3 +402,31 @@ def test_a_motion_is_no_difference() -> None:
 def test_a_draft_knows_what_it_becomes() -> None:
     entrant: Callable[[], Entrant] = Draft("a", "aqp", {"eta": 50.0}).entrant
     assert (entrant().label, entrant().solver, entrant().parameters) == ("a", "aqp", {"eta": 50.0})
+
+
+# ----------------------------------------------------------------------------------------- a process of its own
+
+LONG = 60_000
+"""Milliseconds: the first use compiles kernels."""
+
+
+def test_a_killed_process_is_said_and_the_race_begins_anew(racing: Racing, qtbot: QtBot) -> None:
+    racing.make_worker = None
+    racing.begin(RaceChoice((NEWTON, DESCENT), "", True, 100_000, 0.0))
+    race = racing.race
+    model = race.model
+    qtbot.waitUntil(lambda: all(record.frame is not None for record in model.records), timeout=LONG)
+    race.actions_by_name["run"].trigger()
+    qtbot.waitUntil(lambda: model.records[1].iterations > 5, timeout=LONG)
+    assert model.is_running and race.actions_by_name["run"].text() == "Pause"
+    os.kill(model.bridge._worker.process_id, signal.SIGKILL)
+    qtbot.waitUntil(race.error_bar.isVisible, timeout=LONG)
+    assert "killed" in race.error_bar.sentence.text() and not model.is_running
+    assert not race.actions_by_name["run"].isEnabled()
+    kept = model.records[0].frame.positions
+    assert kept is not None  # what was shown stays
+    race.actions_by_name["restart"].trigger()
+    qtbot.waitUntil(lambda: model.is_ready and all(r.frame is not None for r in model.records), timeout=LONG)
+    assert race.error_bar.isHidden()
+    race.actions_by_name["step"].trigger()
+    qtbot.waitUntil(lambda: all(record.iterations == 1 for record in model.records), timeout=LONG)

@@ -138,7 +138,7 @@ def test_one_that_cannot_start_harms_nobody(square: Mesh) -> None:
 def test_the_start_is_made_as_the_source_was_opened(square: Mesh) -> None:
     window = Window()
     loop = RaceLoop(window)
-    wish = StartWish("", (), Reset("rest"))
+    wish = StartWish("", reset=Reset("rest"))
     loop.handle(start_of(square, NEWTON, start=wish))
     np.testing.assert_array_equal(window.of(RaceStarted)[0].start, square.vertices)
 

@@ -28,7 +28,7 @@ from workbench.engine.race_messages import (
     TablesSaved,
 )
 from workbench.engine.racer import Terms
-from workbench.engine.starts import adjusted_start, make_start
+from workbench.engine.starts import adjusted_start, default_initializer, make_start
 
 TURN = 0.02
 """Seconds of a turn: between turns commands are read and maps go out."""
@@ -101,8 +101,11 @@ class RaceLoop:
         self._serial, self._race, self._phase = command.serial, None, None
         self._running, self._steps_left, self._seek = False, 0, Seek()
         self._publish(Progress("Bringing everyone to the start …"))
-        start = _start_of(command)
-        problem = _problem_of(command, start)
+        problem = _problem_of(command)
+        start = _start_of(command, problem)
+        if command.problem.fixed_boundary:
+            boundary = problem.mesh.topology.boundary_vertices
+            problem = problem.with_anchors(problem.anchors.with_added(boundary, start[boundary]))
         contestants = [_contestant(entrant) for entrant in command.entrants]
         limits = Limits(command.limits.iterations, command.limits.time_limit)
         race = Race(problem, start, contestants, criteria=Criteria(command.limits.tolerance), limits=limits)
@@ -215,27 +218,25 @@ class RaceLoop:
         self._publish(Failure(self._serial, sentence, traceback.format_exc()))
 
 
-def _start_of(command: StartRace) -> Floats:
+def _start_of(command: StartRace, problem: Problem) -> Floats:
     """The start (n, d) that is given or wished for. Raises `WorkbenchError` where it cannot be made."""
-    wish = command.start
+    wish, mesh, kind = command.start, command.mesh, command.kind
     if not isinstance(wish, StartWish):
         return wish
     reset = wish.reset
     if not reset.initializer:
         from workbench.io.opening import open_source
 
-        given = open_source(wish.source, kind=command.kind, fixes=wish.fixes).start
-        if given is not None and len(given) == command.mesh.vertex_count:
-            return adjusted_start(command.mesh, command.kind, given, False)
-    return make_start(command.mesh, command.kind, reset.initializer, reset.parameters, reset.file, reset.match_area)
+        given = open_source(wish.source, kind=kind, fixes=wish.fixes).start
+        if given is not None and len(given) == mesh.vertex_count:
+            return adjusted_start(mesh, kind, given, False)
+    id = reset.initializer or default_initializer(kind, registry().solver(wish.solver).initializer)
+    return make_start(mesh, kind, id, reset.parameters, reset.file, reset.match_area, problem)
 
 
-def _problem_of(command: StartRace, start: Floats) -> Problem:
+def _problem_of(command: StartRace) -> Problem:
     mesh, choices, held = command.mesh, command.problem, command.anchors
     anchors = Anchors(held.vertices, held.targets, held.weights) if len(held.vertices) else Anchors.none(mesh.dimension)
-    if choices.fixed_boundary:
-        boundary = mesh.topology.boundary_vertices
-        anchors = anchors.with_added(boundary, start[boundary])
     return Problem.create(mesh, command.kind, _distortion(choices), anchors, allow_inversions=choices.allow_inversions)
 
 

@@ -30,9 +30,10 @@ class Entrant:
 
 @dataclass(frozen=True)
 class StartWish:
-    """The start that a source has with these choices: made anew, as when it was opened."""
+    """The start that a source has with these choices: made anew, as when it was opened; `solver` may wish for one."""
 
     source: str
+    solver: str = "projected-newton"
     fixes: tuple[str, ...] = ()
     reset: Reset = field(default_factory=Reset)
 

@@ -136,7 +136,7 @@ class Racing(QObject):
             serial=0,
             mesh=loaded.mesh,
             kind=loaded.kind,
-            start=positions if choice.from_map else StartWish(session.source, session.fixes, reset),
+            start=positions if choice.from_map else StartWish(session.source, session.solver, session.fixes, reset),
             entrants=choice.entrants,
             problem=problem,
             anchors=SetAnchors(vertices, anchors.target_array(positions.shape[1]), weights),
