@@ -179,3 +179,42 @@ def test_a_distortion_that_refers_to_itself_is_refused(monkeypatch: pytest.Monke
         compile_formula("a_b", 2, {}, lambda name: ("1 + a_b", {}))
     with pytest.raises(FormulaError, match="more than"):
         compile_formula("x0", 2, {}, lambda name: (" + ".join([f"x{int(name[1:]) + 1}"] * 3), {}))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "3*exp(mips)/2", "exp(mips) + exp(symmetric_dirichlet)", "exp(mips) + arap", "1 + exp(mips)", "exp(mips)^3*exp(arap)",
+        "0.3*amips + 0.7*condition_number", "sqrt(exp(mips))/exp(arap)", "max(exp(mips), 5)", "sum(exp(sigma))",
+    ],
+)  # fmt: skip
+def test_a_formula_made_of_exponentials_has_a_logarithm_with_its_derivatives(text: str, dimension: int) -> None:
+    distortion = Distortion.resolve(text)
+    logarithm, root = distortion.tempered(dimension), distortion.tempered(dimension, 0.25)
+    assert logarithm is not None and root is not None
+    sigma = np.array([[1.7, 1.2, 0.6], [1.0, 1.0, 1.0], [3.0, 2.0, 0.9]])[:, :dimension]
+    value, first, second = distortion.value(sigma), distortion.gradient(sigma), distortion.hessian(sigma)
+    relative = first / value[:, None]
+    assert np.allclose(logarithm.value(sigma), np.log(value), rtol=1e-13, atol=1e-13)
+    assert np.allclose(logarithm.gradient(sigma), relative, rtol=1e-12, atol=1e-13)
+    expected = second / value[:, None, None] - relative[:, :, None] * relative[:, None, :]
+    assert np.allclose(logarithm.hessian(sigma), expected, rtol=1e-9, atol=1e-9)
+    assert np.allclose(root.value(sigma), value**0.25, rtol=1e-13)
+    far = np.array([[1e3, 1.0, 1e-3]])[:, :dimension]  # the exponential itself may overflow
+    assert np.isfinite(logarithm.value(far)).all() and np.isfinite(logarithm.gradient(far)).all()
+
+
+def test_what_is_not_made_of_exponentials_has_no_logarithm() -> None:
+    for text in (
+        "2*sum(sigma)",
+        "exp(mips) - 1",
+        "exp(mips)*arap",
+        "-exp(mips) + 2*exp(mips)*arap",
+        "log(exp(mips))",
+        "exp(2)*det",
+    ):
+        assert Distortion.resolve(text).tempered(2) is None
+    begin = time.perf_counter()
+    assert Distortion.resolve("(" * 20 + "exp(sigma1/1e6)" + "^2)" * 20).tempered(3) is not None
+    assert time.perf_counter() - begin < 5  # shared parts are looked at once (not a measurement)

@@ -89,9 +89,9 @@ class Distortion:
         return self._compiled[dimension]
 
     def tempered(self, dimension: int, power: float = 0.0) -> Distortion | None:
-        """D^power, or log D where `power` is 0, with the same barrier, for a formula that is an exponential; else None.
+        """D^power, or log D where `power` is 0, with the same barrier, for a formula made of exponentials; else None.
 
-        An exponential overflows on maps far from the minimum; its logarithm orders simplices alike and does not.
+        Exponentials overflow on maps far from the minimum; the logarithm orders simplices alike and does not.
         """
         if not has_logarithm(self.compiled(dimension)):
             return None

@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 
 from workbench.core.errors import FormulaError
+from workbench.core.exponentials import logarithm
 from workbench.core.expression import Graph, Op
 from workbench.core.tape import Tape, compile_tape
 
@@ -87,7 +88,7 @@ def compile_formula(
     resolve : callable   name with underscores -> (formula, its parameters) of another distortion, or None
     text_on_inverted : str   a second formula for simplices that are inverted at the start
     softening : float    sqrt(sigma_i^2 + softening^2) stands for each sigma_i
-    power : float        compile D^power instead, or log D where it is 0, of a formula that is an exponential
+    power : float        compile D^power instead, or log D where it is 0, of a formula made of exponentials
 
     Raises `FormulaError` with a sentence and the place for everything that is not allowed.
     """
@@ -97,7 +98,7 @@ def compile_formula(
         graph.singular_values = [graph.sqrt(graph.add(graph.multiply(v, v), square)) for v in graph.variables]
     bound = dict(parameters or {})
     root = _read_number(graph, bound, resolve, text)
-    exponent = _logarithm(graph, root) if power != 1.0 else None
+    exponent = logarithm(graph, root) if power != 1.0 else None
     if exponent is not None:
         root = graph.exp(graph.multiply(graph.constant(power), exponent)) if power else exponent
     if text_on_inverted:
@@ -124,23 +125,8 @@ def compile_formula(
 
 
 def has_logarithm(compiled: CompiledFormula) -> bool:
-    """Whether a formula is an exponential, up to a positive factor, so that its logarithm cannot overflow where it does."""
-    return _logarithm(compiled.graph, compiled.root) is not None
-
-
-def _logarithm(graph: Graph, root: int) -> int | None:
-    op, _, arguments = graph.nodes[root]
-    if op is Op.EXP:
-        return arguments[0]
-    if op in (Op.MULTIPLY, Op.DIVIDE):
-        for factor, rest in (arguments, arguments[::-1])[: 2 if op is Op.MULTIPLY else 1]:
-            if op is Op.DIVIDE:
-                factor, rest = rest, factor
-            value, exponent = graph.constant_value(factor), _logarithm(graph, rest)
-            if value is not None and value > 0.0 and exponent is not None:
-                shift = graph.constant(math.log(value))
-                return graph.add(exponent, shift) if op is Op.MULTIPLY else graph.subtract(exponent, shift)
-    return None
+    """Whether a formula is made of exponentials, so that its logarithm can be computed where they overflow."""
+    return logarithm(compiled.graph, compiled.root) is not None
 
 
 def _read_number(
