@@ -12,7 +12,7 @@ from workbench.core.arrays import Floats
 from workbench.core.energy import Evaluation
 from workbench.core.expression import SWITCH
 from workbench.core.line_search import SAFETY, armijo, largest_step
-from workbench.core.solver import ROUNDING, Interrupt
+from workbench.core.solver import ROUNDING, ZERO, Interrupt
 from workbench.core.state import State
 from workbench.core.status import Status
 
@@ -86,7 +86,8 @@ def descend(
     if found.interrupted:
         return replace(state, status=Status.INTERRUPTED)
     if found.size == 0.0:
-        if problem.density.has_kinks and -slope * first <= SWITCH * abs(energy):
+        is_zero = abs(energy) <= ZERO * problem.total_measure
+        if is_zero or (problem.density.has_kinks and -slope * first <= SWITCH * abs(energy)):
             # what the derivatives promise is below what they round off at a kink: the map is a minimum to that precision
             return replace(state, iteration=state.iteration + 1, energy=energy, previous_energy=energy, step_size=0.0)
         return replace(state, status=Status.NO_DESCENT)

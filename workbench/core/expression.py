@@ -44,6 +44,8 @@ SWITCH = 1e-5
 """Part of |a| + |b| within which a and b count as meeting."""
 LEAST_ABSOLUTE = 1e-9
 """|a| counts as no less than this where its curvature is bounded from above."""
+LEAST_ROOT = 1e-150
+"""A square root counts as no less than this in its derivatives: at the minimum 0 of a norm, the gradient is 0."""
 
 
 Key = tuple[Op, float, tuple[int, ...]]
@@ -251,7 +253,8 @@ class Graph:
         if op is Op.POWER:
             return self._differentiate_power(node, a, arguments[1], d[0], d[1])
         if op is Op.SQRT:
-            return self.divide(self.multiply(self.constant(0.5), d[0]), node)
+            least = self.constant(LEAST_ROOT)
+            return self.divide(self.multiply(self.constant(0.5), d[0]), self.select(node, least, node, least))
         if op is Op.EXP:
             return self.multiply(node, d[0])
         if op is Op.LOG:

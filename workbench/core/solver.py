@@ -25,6 +25,8 @@ Interrupt = Callable[[], bool]
 
 ROUNDING = 1e-13
 """A decrease below this part of the energy cannot be told from rounding."""
+ZERO = 1e-14
+"""An energy a unit of the source below which it is 0: one whose minimum is 0 never falls by a small part of itself."""
 
 
 def never() -> bool:
@@ -88,8 +90,7 @@ class Solver(Method, ABC):
         criteria = problem.criteria
         if math.isfinite(state.previous_energy):
             decrease = state.previous_energy - state.energy
-            # An energy whose minimum is 0 never decreases by a small part of itself: 1e-14 a unit of area is the floor.
-            floor = 1e-14 * problem.total_measure
+            floor = ZERO * problem.total_measure
             if 0.0 <= decrease <= max(criteria.tolerance * abs(state.energy), floor):
                 return Status.CONVERGED
         asked = criteria.gradient_tolerance
