@@ -103,12 +103,12 @@ def test_several_meshes_and_kinds_in_one_table(cli, square_file, dome_file, cube
     np.savez(tmp_path / "cube.npz", V=cube.vertices, S=cube.simplices, X0=cube.vertices * [1.2, 1.0, 0.9])
     out = tmp_path / "race"
     result = cli(
-        "compare", square_file, dome_file, tmp_path / "cube.npz", "--solvers", "projected-newton,slim",
-        "--rows", "0,last", "--out", out,
+        "compare", square_file, dome_file, tmp_path / "cube.npz", "--solvers", "slim",
+        "--rows", "last", "--out", out,
     )  # fmt: skip
     assert result.status == 0, result.err
     table = rows_of(out / "table.csv")
-    assert [row["mesh"] for row in table] == ["square", "square", "dome", "dome", "cube", "cube"]
+    assert [row["mesh"] for row in table] == ["square", "dome", "cube"]
     assert {row["mesh"] for row in rows_of(out / "history.csv")} == {"square", "dome", "cube"}
     assert all(row["globally_injective"] == "" for row in table if row["mesh"] == "cube")  # not tested for volumes
     for mesh in ("square", "dome", "cube"):
@@ -142,7 +142,7 @@ def test_a_failure_is_told_and_all_is_written(cli, square, tmp_path):
     start[24] += 0.5  # over its neighbours
     np.savez(path, V=square.vertices, S=square.simplices, X0=start)
     out = tmp_path / "race"
-    result = cli("compare", path, "--solvers", "slim,aqp", "--out", out)
+    result = cli("compare", path, "--solvers", "slim,aqp", "--rows", "last", "--out", out)
     assert result.status == 1
     assert {path.name for path in out.iterdir()} == FILES  # of maps that are infinitely distorted, too
     assert {row["status"] for row in rows_of(out / "table.csv")} == {"INVERTED_START"}
@@ -152,7 +152,7 @@ def test_a_failure_is_told_and_all_is_written(cli, square, tmp_path):
 def test_the_figures_are_the_same_again_and_bear_no_date(cli, square_file, anchors_file, tmp_path, monkeypatch):
     ticks = iter(range(10**9))
     monkeypatch.setattr("time.perf_counter", lambda: next(ticks) * 1e-3)  # a clock that is the same in every run
-    arguments = ["compare", square_file, "--solvers", "slim,aqp", "--anchors", anchors_file, "--iterations", 4, "--quiet"]
+    arguments = ["compare", square_file, "--solvers", "slim", "--rows", "0,last", "--anchors", anchors_file, "--quiet"]
     found = []
     for folder in ("one", "two"):
         ticks = iter(range(10**9))

@@ -196,14 +196,14 @@ def _write(prepared: list[PreparedProblem], races: list[Race], options: argparse
 def _draw(race: Race, name: str, rows: tuple[int, ...], folder: Path) -> None:
     from workbench.figures.contact_sheet import contact_sheet, sheet_columns
     from workbench.figures.convergence_curves import convergence_curves, curves_of
-    from workbench.figures.save import save_figure
+    from workbench.figures.save import save_figure, settle
 
     curves = convergence_curves(curves_of(race), name)
-    for ending in (".svg", ".pdf", ".png"):
-        save_figure(curves, folder / f"curves{ending}")
     sheet = contact_sheet(race.racers[0].problem, sheet_columns(race, rows), rows, name)
-    for ending in (".png", ".pdf"):
-        save_figure(sheet, folder / f"sheet{ending}")
+    for stem, figure, endings in (("curves", curves, (".svg", ".pdf", ".png")), ("sheet", sheet, (".png", ".pdf"))):
+        settle(figure)
+        for ending in endings:
+            save_figure(figure, folder / f"{stem}{ending}")
 
 
 def _mesh_names(files: list[str]) -> list[str]:

@@ -25,6 +25,14 @@ def check_format(path: str | os.PathLike[str]) -> str:
     return ending
 
 
+def settle(figure: Figure) -> None:
+    """Lay out `figure` once for all; else it is laid out anew, the same, for every file that it is saved in."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine("none")
+
+
 def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write `figure` in the format of the ending of `path`. Raises `WorkbenchError` where that cannot be."""
     import matplotlib
