@@ -41,6 +41,8 @@ OUTLINE = 0.35
 """Width of that line, points."""
 CELL = 1.75
 """Width and height of a picture, inches."""
+SOURCE = 1.25
+"""Least height of a textured source, inches."""
 TEXTURED = 1.9
 """Width of the column of textured sources, inches."""
 
@@ -92,7 +94,8 @@ def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequen
     turned = [[_turned(item.positions, view) for item in column.maps] for column in columns]
     half = _common_half(turned)
     height = CELL if half is None else CELL * min(1.5, max(0.3, half[1] / half[0]))
-    figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, (height + 0.3) * len(rows) + 1.1), layout="constrained")
+    tall = max((height + 0.3) * len(rows), SOURCE * len(columns)) + 1.1
+    figure = Figure(figsize=(CELL * len(columns) + TEXTURED + 0.5, tall), layout="constrained")
     grid = figure.add_gridspec(1, 2, width_ratios=[CELL * len(columns), TEXTURED])
     left = grid[0].subgridspec(len(rows), len(columns)).subplots(squeeze=False)
     right = grid[1].subgridspec(len(columns), 1).subplots(squeeze=False)[:, 0]
