@@ -2,51 +2,31 @@
 
 from __future__ import annotations
 
-import contextlib
-import multiprocessing
 import multiprocessing.connection
-import threading
-import traceback
 from collections.abc import Callable
 from dataclasses import replace
-from multiprocessing.connection import Connection
-from typing import Any
 
 from workbench.core.jacobians import Elements, build_elements
-from workbench.engine.child import WithoutMainModule, exit_words
-from workbench.engine.command_box import CommandBox
-from workbench.engine.command_sender import CommandSender
+from workbench.engine.child import exit_words
 from workbench.engine.live import LiveColours
-from workbench.engine.messages import Command, Failure, Quit, Refused, Report, Watch
-from workbench.engine.priority import run_child
+from workbench.engine.messages import Refused, Report, Watch
+from workbench.engine.process_owner import ProcessOwner
 from workbench.engine.race_messages import RaceEnded, RaceFrame, StartRace
 from workbench.engine.race_process import race_main
 from workbench.engine.shared_positions import PositionRing
 
-QUIT_PATIENCE = 0.5
-"""Seconds that the child has to leave by itself when the race is closed."""
 
-
-class RaceWorker:
+class RaceWorker(ProcessOwner):
     """Runs the process of a race; where it dies, says so and has a new one ready for the next `StartRace`."""
 
+    name = "workbench-race"
+    trouble = "The owner of the race failed: {}. Close the race and begin another."
+
     def __init__(self, wake: Callable[[], None], *, threads: int = 0, gives_way: bool = False) -> None:
-        """`wake` is called on the worker's thread when reports wait; the rest as in `EngineWorker`."""
-        self._wake = wake
-        self._threads = threads
-        self._gives_way = gives_way
-        self._lock = threading.Lock()
-        self._outbox = CommandBox()
-        self._reports: list[Report] = []
+        """See `ProcessOwner`."""
+        super().__init__(wake, threads=threads, gives_way=gives_way)
         self._frames: dict[int, RaceFrame] = {}
-        self._bell, self._rope = multiprocessing.Pipe(duplex=False)
-        self._stop_asked = False
-        self._closing = False
-        self._thread = threading.Thread(target=self._main, name="race-worker", daemon=True)
         # What the thread alone touches:
-        self._process: Any = None
-        self._connection: Connection | None = None
-        self._sender: CommandSender | None = None
         self._serial = 0
         self._elements: Elements | None = None
         self._rings: dict[int, PositionRing] = {}
@@ -56,16 +36,6 @@ class RaceWorker:
         self._said: set[str] = set()
 
     # ------------------------------------------------------------------------- called by the window's thread
-
-    def start(self) -> None:
-        """Spawn the child process and the thread that owns it."""
-        self._thread.start()
-
-    def post(self, command: Command) -> None:
-        """Queue a command; returns at once. Newest of its slot wins."""
-        with self._lock:
-            self._outbox.put(command)
-        self._ring_bell()
 
     def take(self) -> list[Report]:
         """Every report since the last call; of each contestant one frame, the newest, with all rows since then."""
@@ -80,37 +50,14 @@ class RaceWorker:
         self._stop_asked = True
         self._ring_bell()
 
-    def close(self) -> None:
-        """Quit the child and join the thread."""
-        if self._closing:
-            return
-        self._closing = True
-        self._ring_bell()
-        if self._thread.ident is not None:
-            self._thread.join(timeout=10.0)
-
-    @property
-    def process_id(self) -> int | None:
-        """Of the child process, None while there is none."""
-        process = self._process
-        return process.pid if process is not None and process.is_alive() else None
-
-    def _ring_bell(self) -> None:
-        with contextlib.suppress(OSError):
-            self._rope.send_bytes(b"!")
-
     # ----------------------------------------------------------------------------------- the thread's own
 
-    def _main(self) -> None:
-        try:
-            self._spawn()
-            while not self._closing:
-                self._turn()
-        except Exception as error:
-            sentence = f"The owner of the race failed: {error}. Close the race and begin another."
-            self._report(Failure(self._serial, sentence, traceback.format_exc()))
-        finally:
-            self._end_process(kill=False)
+    @property
+    def _generation(self) -> int:
+        return self._serial
+
+    def _spawn(self) -> None:
+        self._begin_process(race_main, self._threads)
 
     def _turn(self) -> None:
         assert self._connection is not None and self._process is not None
@@ -149,8 +96,7 @@ class RaceWorker:
                 self._begin_to_watch()
         for_child = [command for command in commands if not isinstance(command, Watch)]
         if for_child:
-            assert self._sender is not None
-            self._sender.send(for_child)
+            self._send(*for_child)
 
     # ------------------------------------------------------------------------------------------ reports
 
@@ -221,38 +167,8 @@ class RaceWorker:
             self._frames[frame.index] = frame.after(self._frames.get(frame.index))
         self._wake()
 
-    def _report(self, report: Report) -> None:
-        with self._lock:
-            self._reports.append(report)
-        self._wake()
-
-    # ---------------------------------------------------------------------------------------- the child
-
-    def _spawn(self) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._connection, theirs = context.Pipe(duplex=True)
-        with WithoutMainModule():
-            self._process = context.Process(
-                target=run_child, args=(self._gives_way, race_main, theirs, self._threads), name="workbench-race", daemon=True
-            )
-            self._process.start()
-        theirs.close()
-        self._sender = CommandSender(self._connection)
-
-    def _end_process(self, *, kill: bool) -> None:
-        process, self._process = self._process, None
-        if process is None:
-            return
-        assert self._sender is not None and self._connection is not None
-        if not kill:
-            self._sender.send([Quit()])
-            process.join(timeout=QUIT_PATIENCE)
-        self._sender.close()
-        if process.is_alive():
-            process.kill()
-        process.join(timeout=5.0)
-        process.close()
-        self._connection.close()
+    def _end_process(self, *, kill: bool = False) -> None:
+        super()._end_process(kill=kill)
         for ring in self._rings.values():
             ring.close()
         self._rings = {}

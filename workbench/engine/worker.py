@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import multiprocessing
 import multiprocessing.connection
-import threading
 import time
-import traceback
 from collections.abc import Callable
 from dataclasses import replace
 from multiprocessing.connection import Connection
@@ -18,18 +15,14 @@ import numpy as np
 from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements
 from workbench.engine.child import WithoutMainModule, exit_words
-from workbench.engine.command_box import CommandBox
-from workbench.engine.command_sender import CommandSender
 from workbench.engine.corrector import SMALLEST, corrector_main
 from workbench.engine.live import LiveColours
 from workbench.engine.loop import MapReport
 from workbench.engine.messages import (
     Command,
-    Failure,
     Load,
     Loaded,
     Pause,
-    Quit,
     Refused,
     Report,
     Reset,
@@ -45,18 +38,20 @@ from workbench.engine.messages import (
 )
 from workbench.engine.priority import run_child
 from workbench.engine.process import engine_main
+from workbench.engine.process_owner import ProcessOwner
 from workbench.engine.shared_positions import PositionRing
 
-QUIT_PATIENCE = 0.5
-"""Seconds that a child has to leave by itself when the window closes."""
 CRASHES_IN_A_ROW = 3
 """Deaths after which a new process is given the default methods, and does not run; after twice as many there is no new one."""
 STEADY = 10.0
 """Seconds after which a process that publishes maps counts as sound again."""
 
 
-class EngineWorker:
+class EngineWorker(ProcessOwner):
     """Runs the engine process and keeps it alive."""
+
+    name = "workbench-engine"
+    trouble = "The engine's owner failed: {}. Restart the program."
 
     def __init__(
         self,
@@ -67,32 +62,19 @@ class EngineWorker:
         with_fields: bool = True,
         gives_way: bool = False,
     ) -> None:
-        """`wake` is called on the worker's thread when reports wait.
+        """As in `ProcessOwner`.
 
         `on_snapshot` (tests, benchmarks) is told every map that is read, on the worker's thread; `with_fields` false leaves
-        out all that is watched; `threads` is the kernels' thread count in the child, 0 for its default;
-        `gives_way` runs the children at low priority, for a window that draws beside them.
+        out all that is watched.
         """
-        self._wake = wake
-        self._threads = threads
-        self._gives_way = gives_way
+        super().__init__(wake, threads=threads, gives_way=gives_way)
         self._on_snapshot = on_snapshot
         self._with_fields = with_fields
-        self._lock = threading.Lock()
-        self._outbox = CommandBox()
-        self._reports: list[Report] = []
         self._snapshot: Snapshot | None = None
-        self._bell, self._rope = multiprocessing.Pipe(duplex=False)
-        self._stop_asked = False
         self._stopped: list[Command] = []
-        self._closing = False
-        self._thread = threading.Thread(target=self._main, name="engine-worker", daemon=True)
         # What the thread alone touches:
-        self._process: Any = None
         self._corrector: Any = None
         self._correctors_end: Connection | None = None
-        self._connection: Connection | None = None
-        self._sender: CommandSender | None = None
         self._spawned_at = 0.0
         self._ring: PositionRing | None = None
         self._colours: LiveColours | None = None
@@ -107,16 +89,6 @@ class EngineWorker:
         self._watch = Watch()
 
     # ------------------------------------------------------------------------- called by the window's thread
-
-    def start(self) -> None:
-        """Spawn the child process and the thread that owns it."""
-        self._thread.start()
-
-    def post(self, command: Command) -> None:
-        """Queue a command; returns at once. Newest of its kind wins."""
-        with self._lock:
-            self._outbox.put(command)
-        self._ring_bell()
 
     def take(self) -> list[Report]:
         """Every report since the last call; of snapshots only the newest, its `rows` are all since then."""
@@ -134,42 +106,7 @@ class EngineWorker:
             self._stopped += self._outbox.take_all()
         self._ring_bell()
 
-    def close(self) -> None:
-        """Quit the child and join the thread."""
-        if self._closing:
-            return
-        self._closing = True
-        self._ring_bell()
-        if self._thread.ident is not None:
-            self._thread.join(timeout=10.0)
-
-    @property
-    def process_id(self) -> int | None:
-        """Of the engine process, None while there is none."""
-        process = self._process
-        return process.pid if process is not None and process.is_alive() else None
-
-    def _ring_bell(self) -> None:
-        with contextlib.suppress(OSError):
-            self._rope.send_bytes(b"!")
-
     # ----------------------------------------------------------------------------------- the thread's own
-
-    def _main(self) -> None:
-        try:
-            self._spawn()
-            while not self._closing:
-                self._turn()
-        except Exception as error:
-            self._report(
-                Failure(
-                    self._generation,
-                    f"The engine's owner failed: {error}. Restart the program.",
-                    traceback.format_exc(),
-                )
-            )
-        finally:
-            self._end_process()
 
     @property
     def _generation(self) -> int:
@@ -205,10 +142,6 @@ class EngineWorker:
         for_child = [command for command in commands if not isinstance(command, Watch)]
         if for_child:
             self._send(*for_child)
-
-    def _send(self, *commands: Command) -> None:
-        assert self._sender is not None
-        self._sender.send(list(commands))
 
     def _remember(self, command: Command) -> None:
         """Keep what a new process must be told to go on like the old one."""
@@ -335,29 +268,12 @@ class EngineWorker:
         if moving and self._with_fields:
             self._colours.catch_up(positions)
 
-    def _report(self, report: Report) -> None:
-        with self._lock:
-            self._reports.append(report)
-        self._wake()
-
     # ---------------------------------------------------------------------------------------- the child
 
     def _spawn(self) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._connection, theirs = context.Pipe(duplex=True)
-        engines, correctors = context.Pipe(duplex=True)
-        with WithoutMainModule():
-            self._process = context.Process(
-                target=run_child,
-                args=(self._gives_way, engine_main, theirs, engines, time.time(), self._threads),
-                name="workbench-engine",
-                daemon=True,
-            )
-            self._process.start()
-        for end in (theirs, engines):
-            end.close()
-        self._correctors_end = correctors
-        self._sender = CommandSender(self._connection)
+        engines, self._correctors_end = multiprocessing.get_context("spawn").Pipe(duplex=True)
+        self._begin_process(engine_main, engines, time.time(), self._threads)
+        engines.close()
         self._spawned_at = time.monotonic()
 
     def _start_corrector(self) -> None:
@@ -419,7 +335,6 @@ class EngineWorker:
             self._send(self._loaded_by)
 
     def _end_process(self, *, kill: bool = False) -> None:
-        process, self._process = self._process, None
         corrector, self._corrector = self._corrector, None
         if corrector is not None:
             corrector.kill()
@@ -428,20 +343,7 @@ class EngineWorker:
         if self._correctors_end is not None:
             self._correctors_end.close()
             self._correctors_end = None
-        if process is None:
-            return
-        if not kill:
-            self._send(Quit())
-            process.join(timeout=QUIT_PATIENCE)
-        if self._sender is not None:
-            self._sender.close()
-            self._sender = None
-        if process.is_alive():
-            process.kill()
-        process.join(timeout=5.0)
-        process.close()
-        if self._connection is not None:
-            self._connection.close()
+        super()._end_process(kill=kill)
         if self._ring is not None:
             self._ring.close()
             self._ring = None
