@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,26 @@ def test_what_it_says_helps(cli):
     assert cli("check", BLEND, "--set", "lam=0.5").status == 0
     assert cli("check", "alpha*amips", "--set", "alpha=0.5").status == 0
     assert cli("check", "alpha*amips").status == 0, "a parameter of a distortion that it refers to has its default"
+
+
+def test_a_formula_may_begin_with_a_minus(cli, square_file, tmp_path):
+    formula = "-log(det)+dirichlet"
+    result = cli("check", formula)
+    assert result.status == 0 and result.out.startswith(f"{formula}:")
+    out, report = tmp_path / "out.obj", tmp_path / "report.json"
+    options = ("--out", out, "--iterations", "2", "--quiet", "--report", report)
+    assert cli("solve", square_file, "--distortion", formula, *options).status == 0
+    assert json.loads(report.read_text())["distortion"]["formula"] == formula
+    assert cli("solve", square_file, "--out", out, "-o").status == 2
+
+
+def test_a_formula_of_space_alone_is_refused_in_the_plane_and_solved_in_space(cli, square_file, tmp_path):
+    out = tmp_path / "out.npz"
+    for options in (["--distortion", "sigma1/sigma3"], ["--distortion", "ky-fan", "--set", "k=3"]):
+        flat = cli("solve", square_file, *options, "--out", out)
+        assert flat.status == 2 and "2" in flat.err and not out.exists()
+        assert cli("solve", "sample:bar-3d", *options, "--out", out, "--iterations", "1", "--quiet").status == 0
+        out.unlink()
 
 
 def test_own_formulas_are_listed_checked_and_solved_by_name(own, cli, square_file, tmp_path):

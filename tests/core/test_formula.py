@@ -177,6 +177,8 @@ def test_names_that_are_left_are_parameters() -> None:
 def test_a_distortion_that_refers_to_itself_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(FormulaError, match="itself"):
         compile_formula("a_b", 2, {}, lambda name: ("1 + a_b", {}))
+    with pytest.raises(FormulaError, match="deep"):
+        compile_formula("x0", 2, {}, lambda name: (" + ".join([f"x{int(name[1:]) + 1}"] + ["1"] * 50), {}))
     with pytest.raises(FormulaError, match="more than"):
         compile_formula("x0", 2, {}, lambda name: (" + ".join([f"x{int(name[1:]) + 1}"] * 3), {}))
 
@@ -218,3 +220,13 @@ def test_what_is_not_made_of_exponentials_has_no_logarithm() -> None:
     begin = time.perf_counter()
     assert Distortion.resolve("(" * 20 + "exp(sigma1/1e6)" + "^2)" * 20).tempered(3) is not None
     assert time.perf_counter() - begin < 5  # shared parts are looked at once (not a measurement)
+
+
+def test_a_formula_may_have_a_meaning_in_one_dimension_alone() -> None:
+    for text, values in (("sigma1/sigma3", {}), ("sum(largest(3))", {}), ("ky-fan", {"k": 3})):
+        distortion = Distortion.resolve(text, values)
+        assert distortion.dimensions == (3,)
+        assert np.isfinite(distortion.value(np.array([[2.0, 1.5, 0.5]]))).all()
+        with pytest.raises(FormulaError, match="2"):
+            distortion.compiled(2)
+    assert Distortion.resolve("arap").dimensions == (2, 3)

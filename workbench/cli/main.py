@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import PurePath
@@ -54,6 +55,7 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (`sys.argv` where none is given) and return the exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
+    given[1:] = map(_as_formula, given[1:])
     parser = build_parser()
     try:
         options = parser.parse_args(_with_command(given, parser))
@@ -94,6 +96,11 @@ def _with_command(arguments: list[str], parser: argparse.ArgumentParser) -> list
     if first not in COMMANDS and not _names_a_source(first):
         parser.error(f"unknown command {first!r}: the commands are {', '.join(COMMANDS)}; a mesh is named by its file")
     return arguments if first in COMMANDS else ["open", *arguments]
+
+
+def _as_formula(text: str) -> str:
+    """`text` with a blank before it where it is a formula that begins with a minus, which would be taken for an option."""
+    return f" {text}" if re.match(r"-[a-z(]", text) and text != "-h" else text
 
 
 def _names_a_source(text: str) -> bool:

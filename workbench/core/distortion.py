@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -88,6 +89,16 @@ class Distortion:
             )
         return self._compiled[dimension]
 
+    @cached_property
+    def dimensions(self) -> tuple[int, ...]:
+        """Dimensions in which the formula has a meaning: sigma3 has none in the plane."""
+        found = []
+        for dimension in (2, 3):
+            with suppress(FormulaError):
+                self.compiled(dimension)
+                found.append(dimension)
+        return tuple(found)
+
     def tempered(self, dimension: int, power: float = 0.0) -> Distortion | None:
         """D^power, or log D where `power` is 0, with the same barrier, for a formula made of exponentials; else None.
 
@@ -168,11 +179,12 @@ class Distortion:
         """The registered distortion of that id, or the typed formula, with parameter values.
 
         A name in a typed formula that is nothing else becomes a parameter where `values` names it.
+        What has a meaning in one dimension alone is refused where it is compiled for the other.
         Raises `FormulaError` for a formula that is refused, `WorkbenchError` for parameters that do not fit.
         """
         from workbench.core.registry import registry
 
-        values = dict(values or {})
+        text, values = text.strip(" \t"), dict(values or {})
         known = registry().distortions
         if text in known:
             distortion = known[text].with_values(values)
@@ -184,12 +196,8 @@ class Distortion:
                         f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma."
                     )
             distortion = Distortion.from_formula(text, values)
-        for n in (2, 3):
-            try:
-                distortion.compiled(n)
-            except FormulaError:
-                if n == 2:
-                    raise
+        if not distortion.dimensions:
+            distortion.compiled(3)  # says what is wrong
         return distortion
 
     @staticmethod

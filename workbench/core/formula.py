@@ -22,6 +22,7 @@ from workbench.core.tape import Tape, compile_tape
 
 MAXIMUM_LENGTH = 2000
 MAXIMUM_DEPTH = 64
+MAXIMUM_TOTAL_DEPTH = 160
 MAXIMUM_LITERAL = 1e6
 MAXIMUM_REFERENCES = 64
 TEST_POINTS = ((1.0, 1.0, 1.0), (2.0, 1.5, 0.5), (1.2, 0.9, 0.8))
@@ -215,6 +216,7 @@ class _Reader:
         self.resolve = resolve
         self.open: list[str] = []  # names of distortions being read, to catch circles
         self.references = 0
+        self.depth = 0  # of the place that refers to the formula being read
         self.text = ""
 
     def read(self, text: str) -> Value:
@@ -235,7 +237,7 @@ class _Reader:
         if isinstance(node, ast.Constant):
             return self.number(node)
         if isinstance(node, ast.Name):
-            return self.name(node)
+            return self.name(node, depth)
         if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.UAdd | ast.USub):
             operand = self.visit(node.operand, depth + 1)
             if isinstance(node.op, ast.UAdd):
@@ -254,7 +256,7 @@ class _Reader:
             raise self.fail(node, f"A number is beyond {MAXIMUM_LITERAL:g}.")
         return self.graph.constant(float(node.value))
 
-    def name(self, node: ast.Name) -> Value:
+    def name(self, node: ast.Name, depth: int) -> Value:
         graph, n = self.graph, self.graph.variable_count
         if node.id in self.parameters:
             return graph.constant(float(self.parameters[node.id]))
@@ -274,9 +276,9 @@ class _Reader:
             return graph.singular_values[index - 1]
         if node.id in FUNCTIONS:
             raise self.fail(node, f"{node.id} is a function; write {node.id}(...).")
-        return self.other_distortion(node)
+        return self.other_distortion(node, depth)
 
-    def other_distortion(self, node: ast.Name) -> Value:
+    def other_distortion(self, node: ast.Name, depth: int) -> Value:
         other = self.resolve(node.id) if self.resolve else None
         if other is None:
             known = "".join(f", {p}" for p in self.parameters)
@@ -293,6 +295,11 @@ class _Reader:
         inner = _Reader(self.graph, {**defaults, **{k: v for k, v in self.parameters.items() if k in defaults}}, self.resolve)
         inner.open = [*self.open, node.id]
         inner.references = self.references
+        inner.depth = self.depth + depth
+        if inner.depth > MAXIMUM_TOTAL_DEPTH:
+            raise self.fail(
+                node, f"With the distortions that it refers to, the formula is nested more than {MAXIMUM_TOTAL_DEPTH} deep."
+            )
         value = inner.read(text)
         self.references = inner.references
         return value

@@ -218,7 +218,7 @@ class DistortionBox(QWidget):
         begun = self.edit.begun if self.edit.completions.isVisible() else ""  # perhaps not all of a name yet
         names = ", ".join(name.name for name in new if name.name not in (*self.form.rows, begun))
         barrier = self._known.get(self._current)
-        lost = barrier is not None and barrier.has_barrier(2) and not item.has_barrier(2)
+        lost = barrier is not None and any(barrier.has_barrier(n) and not item.has_barrier(n) for n in item.dimensions)
         self.edit.mark(None)
         self._say(
             hint="Enter applies it, Esc brings back the one before."
