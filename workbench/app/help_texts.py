@@ -30,6 +30,12 @@ SHORTCUTS = """
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
 </table>
+<h3>Race</h3>
+<table cellspacing="6">
+<tr><td>Space, . and Home</td><td>run or pause all, one step of all, restart</td></tr>
+<tr><td>L</td><td>back from the past to the newest maps</td></tr>
+<tr><td>X</td><td>A and B change places; hold Y for a moment's look</td></tr>
+</table>
 """
 
 ABOUT = """

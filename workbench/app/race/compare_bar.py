@@ -67,6 +67,10 @@ class CompareBar(QWidget):
         self._changed()
 
     @property
+    def boxes(self) -> tuple[QComboBox, ...]:
+        return self.chooser, self.mode, self.first, self.second
+
+    @property
     def pair(self) -> tuple[int, int]:
         return max(self.first.currentIndex(), 0), max(self.second.currentIndex(), 0)
 

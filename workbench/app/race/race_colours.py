@@ -53,6 +53,10 @@ class RaceColours(QObject):
             self.mode, self.reference = mode, reference
             self._restyle()
 
+    def begin_anew(self) -> None:
+        """Others race now."""
+        self._restyle()
+
     def is_plain(self, index: int) -> bool:
         """Whether a contestant has no colours: the one that the others are compared with."""
         return self.mode != "own" and index == self.reference

@@ -159,11 +159,12 @@ class RaceCurves(QWidget):
         else:
             plot.setXRange(0.0, last, padding=0.02)
         if name in ("energy", "gradient_norm") and self.is_logarithmic["y"]:
-            # at rest there may be rounding alone, beside which all else would be a line
-            shown = [values[1:] if len(values) > 2 else values for values in self.values(name)]
-            shown = np.concatenate([values[np.isfinite(values) & (values > 0)] for values in shown])
-            if len(shown):
-                plot.setYRange(np.log10(shown.min()), np.log10(1.0001 * shown.max()), padding=0.06)
+            # a start at rest has rounding alone, beside which all else would be a line
+            every = [values[np.isfinite(values) & (values > 0)] for values in self.values(name)]
+            least = min((float(values[len(values) > 2 :].min()) for values in every if len(values)), default=0.0)
+            most = max((float(values.max()) for values in every if len(values)), default=0.0)
+            if least > 0:
+                plot.setYRange(np.log10(least), np.log10(1.0001 * most), padding=0.06)
         if name == "inverted":
             most = max((float(values.max()) for values in self.values(name) if len(values)), default=0.0)
             plot.setYRange(0.0, max(most, 1.0), padding=0.06)

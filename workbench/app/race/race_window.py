@@ -145,6 +145,8 @@ class RaceWindow(QMainWindow):
         self.compare.chooser.chosen.connect(self.colours.show_quantity)
         self.compare.mode_chosen.connect(self.colours.show_mode)
         self.compare.flipped.connect(self.grid.flip)
+        for box in (*self.compare.boxes, self.timeline.axis):
+            box.activated.connect(lambda _: self.grid.setFocus())  # a list keeps letters to itself: keys go to the window
         self.colours.restyled.connect(lambda: self.legend.show_range(self.colours.range))
         self.colours.fitted.connect(lambda: self.legend.show_values(self.colours.values))
         self.timeline.axis_chosen.connect(self.curves.show_axis)
@@ -173,7 +175,7 @@ class RaceWindow(QMainWindow):
         self.grid.make_panes()
         self.curves.make_curves()
         self.compare.list_contestants()
-        self.colours.restyled.emit()
+        self.colours.begin_anew()
 
     def say(self, sentence: str) -> None:
         self.sentence.setText(sentence)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QSize, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -36,6 +36,7 @@ class ViewGrid(QWidget):
         self._is_linking = False
         self.turns = ViewTurns(self._draw, self)
         self.setMinimumSize(300, 200)
+        self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         model.started.connect(self._show_mesh)
         model.map_changed.connect(self._contestant_changed)
         model.told.connect(self._show_record)
