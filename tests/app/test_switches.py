@@ -111,3 +111,24 @@ def test_numbers_of_a_narrow_axis_differ() -> None:
     assert len(set(texts)) == 3
     assert [float(text) for text in texts] == pytest.approx(values)
     assert distinct_numbers([1e-15, 1e10, 5.0]) == ["1e-15", "1e10", "5"]
+
+
+def test_the_plots_stay_inside_a_narrow_dock(window: MainWindow, qtbot: QtBot) -> None:
+    dock = window.convergence
+    window.document.history_restarted.emit()
+    wide, narrow = 1.23456e-15, 1.0
+    window.history.extend(HistoryRow(i, 0.1 * i, wide * (1 + 1e-4 * i), wide, 0.5, 1.0, 0, 0.0) for i in range(5))
+    dock.refresh()
+    dock.setFloating(True)
+    dock.resize(300, 200)
+    qtbot.waitUntil(lambda: dock.graphics.viewport().width() <= 300)
+    qtbot.wait(50)
+    window.history.clear()
+    window.history.extend(HistoryRow(i, 0.1 * i, narrow + i, narrow, 0.5, 1.0, 0, 0.0) for i in range(5))
+    dock.refresh()
+    qtbot.wait(50)
+    dock.refresh()
+    right = max(plot.sceneBoundingRect().right() for plot in dock._plots)
+    assert right <= dock.graphics.viewport().width()
+    dock.setFloating(False)
+    window.document.history_restarted.emit()

@@ -16,6 +16,7 @@ from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
 from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, Saver, SaveRequest
+from workbench.app.switches import name_of_distortion
 
 if TYPE_CHECKING:
     from workbench.app.dissection.dissection_window import DissectionWindow
@@ -196,7 +197,8 @@ class Commands(QObject):
         mesh, positions, snapshot = self._document.mesh, self._document.positions, self._document.snapshot
         if mesh is None or positions is None or snapshot is None or self.signatures is None:
             return
-        name = f"{source_name(self._document.session.source)}, iteration {snapshot.row.iteration}"
+        session = self._document.session
+        name = f"{source_name(session.source)}, {name_of_distortion(session.distortion)}, iteration {snapshot.row.iteration}"
         self.signatures.add_map(mesh, positions, name)
 
     def show_dissection(self) -> None:

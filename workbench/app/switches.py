@@ -85,7 +85,7 @@ def switched(before: Session, after: Session) -> str:
     if before.solver != after.solver:
         parts.append(_name_of_solver(after.solver))
     if before.distortion != after.distortion:
-        parts.append(_name_of_distortion(after.distortion))
+        parts.append(name_of_distortion(after.distortion))
     parts += _other_values(before.distortion_parameters, after.distortion_parameters, before.distortion == after.distortion)
     parts += _other_values(before.solver_parameters, after.solver_parameters, before.solver == after.solver)
     if before.fixed_boundary != after.fixed_boundary:
@@ -114,7 +114,8 @@ def _name_of_solver(id: str) -> str:
     return solver.label if solver is not None else id
 
 
-def _name_of_distortion(text: str) -> str:
+def name_of_distortion(text: str) -> str:
+    """The title of a registered distortion, or the beginning of a formula."""
     from workbench.core.registry import registry
 
     item = registry().distortions.get(text)

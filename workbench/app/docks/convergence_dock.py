@@ -13,7 +13,7 @@ from workbench.app.switches import Switches
 from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 
-CURVES = (("energy", "Energy"), ("gradient_norm", "Gradient norm"), ("inverted", "Inverted simplices"))
+CURVES = (("energy", "Energy"), ("gradient_norm", "Gradient"), ("inverted", "Inverted"))
 
 
 MOST_BINS = 300
@@ -48,7 +48,7 @@ class ConvergenceDock(QDockWidget):
         bar.addStretch(1)
         layout.addLayout(bar)
         self.graphics = pg.GraphicsLayoutWidget(body)
-        self.graphics.setMinimumSize(240, 110)
+        self.graphics.setMinimumSize(290, 110)
         self.graphics.ci.layout.setContentsMargins(2, 2, 8, 2)
         self.graphics.ci.layout.setHorizontalSpacing(6)
         layout.addWidget(self.graphics, 1)
@@ -101,8 +101,15 @@ class ConvergenceDock(QDockWidget):
         most = float(counts.max()) if len(counts) else 0.0
         self._plots[2].setYRange(0.0, max(most, 1.0), padding=0.06)
         self.marks.show(self._switches, self.abscissa.currentData())
+        self._fit_plots()
         # a count has no halves
         self._plots[2].getAxis("left").setTickSpacing(levels=[(1.0, 0.0)] if most < 4 else None)
+
+    def _fit_plots(self) -> None:
+        """Numbers of an axis that were wide once have pushed the plots out of a narrow view."""
+        plots, room = self.graphics.ci, self.graphics.viewport().size()
+        if plots.size().width() > room.width():
+            plots.resize(room)
 
 
 def thinned(abscissa: Floats, values: Floats) -> tuple[Floats, Floats]:

@@ -13,6 +13,9 @@ from PySide6.QtWidgets import QWidget
 from workbench.app.range_fit import rounded_up
 from workbench.app.theme import Theme
 
+OVERHANG = 16
+"""Pixels by which the numbers of an axis may stand out beyond its ends."""
+
 
 class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
     """An axis whose marks stand at powers of ten, or at 1, 2, 5 times them where few powers are in sight."""
@@ -83,4 +86,5 @@ def paint_axes(plot: pg.PlotItem, theme: Theme) -> None:
         axis.enableAutoSIPrefix(False)
         axis.setPen(theme.faint)
         axis.setTextPen(theme.text)
-        axis.setStyle(tickLength=4, maxTickLevel=0)
+        # a number at the very end may stand out as far as half of it
+        axis.setStyle(tickLength=4, maxTickLevel=0, hideOverlappingLabels=OVERHANG)

@@ -9,6 +9,7 @@ from workbench.app.colour_legend import ColourLegend
 from workbench.app.colour_range import ColourRange
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.quantity_chooser import QuantityChooser
+from workbench.app.status_line import ElidedLabel
 from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
 
@@ -36,12 +37,13 @@ class ViewPane(QWidget):
         header.setContentsMargins(10, 4, 6, 4)
         header.setSpacing(6)
         name = QLabel(f"<b>{title}</b>", self)
-        self.caption = QLabel("", self)
+        self.caption = ElidedLabel("", self)
         self.caption.setObjectName("citation")
         self.caption.setMinimumWidth(10)
         self.chooser = QuantityChooser(book, next(iter(styles)), styles, self)
         self.chooser.chosen.connect(self.style_chosen)
         self.chooser.setMinimumContentsLength(21)
+        self.chooser.setMinimumWidth(120)  # in a small window it gives way
         header.addWidget(name)
         header.addWidget(self.caption, 1)
         header.addWidget(self.chooser)
