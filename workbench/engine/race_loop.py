@@ -33,7 +33,9 @@ from workbench.engine.starts import adjusted_start, default_initializer, make_st
 TURN = 0.02
 """Seconds of a turn: between turns commands are read and maps go out."""
 PUBLISH_INTERVAL = 0.07
-"""Seconds between two maps of one contestant."""
+"""Seconds between two maps of one contestant, on the average."""
+BURST = 2 * PUBLISH_INTERVAL
+"""Seconds that a contestant may have been silent for that come back as maps sooner: turns of quick ones come in bursts."""
 
 
 @dataclass
@@ -42,7 +44,7 @@ class _Told:
 
     number: int = 0
     rows: int = 0
-    at: float = 0.0
+    due: float = 0.0
     last: tuple[object, ...] = ()
 
 
@@ -157,7 +159,7 @@ class RaceLoop:
             racer = race.advance(TURN, self._pending)
             if racer is not None:
                 index = race.racers.index(racer)
-                if not racer.is_running or time.perf_counter() - self._told[index].at >= PUBLISH_INTERVAL:
+                if not racer.is_running or time.perf_counter() >= self._told[index].due:
                     self._publish_frame(index)
         if not self.is_active:
             self._publish_all()
@@ -182,7 +184,8 @@ class RaceLoop:
         told.number += has_map
         rows, terms = racer.rows[told.rows :], racer.terms[told.rows :]
         row = racer.rows[frame.index]
-        told.last, told.rows, told.at = news, len(racer.rows), time.perf_counter()
+        told.last, told.rows = news, len(racer.rows)
+        told.due = max(told.due, time.perf_counter() - BURST) + PUBLISH_INTERVAL
         self._publish(
             RaceFrame(
                 serial=self._serial,

@@ -24,6 +24,8 @@ PLOTS = (
     ("gradient_norm", "Gradient norm"),
     ("inverted", "Inverted simplices"),
 )
+THINNEST, WIDER = 1.5, 0.9
+"""Width of the last contestant's curve in pixels, and how much wider each one before it is."""
 INTERVAL = 400
 """Milliseconds between two pictures of the curves."""
 
@@ -73,9 +75,12 @@ class RaceCurves(QWidget):
                 plot.removeItem(item)
         self.curves, self.markers = {}, {}
         for plot, (name, _) in zip(self._plots, PLOTS, strict=True):
-            for index in range(len(self._model.records)):
+            count = len(self._model.records)
+            for index in range(count):
                 colour = colour_of(index)
-                self.curves[name, index] = plot.plot([], [], pen=pg.mkPen(colour, width=1.8))
+                # where curves are one, those below show at the sides
+                width = THINNEST + WIDER * (count - 1 - index)
+                self.curves[name, index] = plot.plot([], [], pen=pg.mkPen(colour, width=width))
                 self.markers[name, index] = plot.plot(
                     [], [], pen=None, symbol="d", symbolSize=11, symbolBrush=colour, symbolPen=pg.mkPen("w", width=1)
                 )
