@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from workbench.app.resolved import resolved
 from workbench.core.distortion import Distortion
 from workbench.core.measure import DESCRIPTORS, Measure
 
@@ -89,7 +90,7 @@ def quantity_of_distortion(item: Distortion, group: str = "distortions") -> Quan
 
 def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None) -> Quantity:
     """A typed formula. Raises `WorkbenchError` where it is none."""
-    item = Distortion.resolve(text, dict(parameters or {}))
+    item = resolved(text, parameters)
     item.compiled(2)
     measure = Measure.of(text, parameters)
     least, centre = _sides(item)
@@ -108,7 +109,7 @@ def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None
 
 def quantity_in_force(text: str, parameters: Mapping[str, float]) -> Quantity:
     """The distortion that is minimised, whichever it is. Raises `WorkbenchError` where the text is none."""
-    item = Distortion.resolve(text, dict(parameters))
+    item = resolved(text, parameters)
     least, centre = _sides(item)
     measure = Measure.of(text, parameters)
     words = item.short or item.label

@@ -12,6 +12,7 @@ from workbench.app.panels.formula_edit import FormulaEdit
 from workbench.app.panels.formula_tools import FormulaTools
 from workbench.app.panels.parameter_sliders import ParameterSliders
 from workbench.app.panels.value_pacer import ValuePacer
+from workbench.app.resolved import resolved
 from workbench.core.distortion import Distortion
 from workbench.core.errors import FormulaError, WorkbenchError
 from workbench.core.formula import FUNCTIONS
@@ -133,7 +134,7 @@ class DistortionBox(QWidget):
         self._shown_choice = ()
         self.combo.setCurrentIndex(max(self.combo.findData(text), 0))
         try:
-            item = Distortion.resolve(text, values)
+            item = resolved(text, values)
         except WorkbenchError as error:
             self._say_error(error.sentence)
             return
@@ -230,12 +231,12 @@ class DistortionBox(QWidget):
         """The typed formula with a value for each parameter; None where it is refused, which is said."""
         try:
             if text in self._known or looks_like_id(text):
-                return Distortion.resolve(text), ()
+                return resolved(text), ()
             new = undeclared_names(text)
             for name in new:
                 if not name.may_be_parameter:
                     raise FormulaError(name.sentence, position=name.position)
-            return Distortion.resolve(text, self._values_for(text, new)), new
+            return resolved(text, self._values_for(text, new)), new
         except WorkbenchError as error:
             lead = len(self.edit.text) - len(self.edit.text.lstrip())
             self.edit.mark(lead + error.position if isinstance(error, FormulaError) else None)
@@ -282,7 +283,7 @@ class DistortionBox(QWidget):
         if item is not None:
             values = {p.name: values[p.name] for p in item.parameters if values[p.name] != p.default}
         try:
-            in_force = Distortion.resolve(self._current, values)
+            in_force = resolved(self._current, values)
         except WorkbenchError as error:  # 1/(1 - lam) at lam = 1, say
             self._say_error(f"Not at these values: {error.sentence}")
             return
