@@ -298,6 +298,7 @@ def test_a_switch_is_marked_on_the_curves(racing: Racing, qtbot: QtBot) -> None:
     record = race.model.records[1]
     assert len(x) == 1 and x[0] == record.history.column("iteration")[rows]
     assert y[0] == record.history.column("energy")[rows]
+    assert race.curves._marks._shown == [(x[0], "Descent: mips")]
     assert record.entrant.solver == "projected-newton" and record.problem.distortion == "mips"
     race.model.switch(0, "no", "local-global", {}, None)
     qtbot.waitUntil(race.error_bar.isVisible)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QColor, QPixmap
+from PySide6.QtGui import QColor, QPainter, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QVBoxLayout, QWidget
 
 from workbench.app.anchor_tool import NavigationTool
@@ -26,6 +26,16 @@ PHASES = {"running": "running", "finished": "done", "failed": "failed", "given":
 def colour_of(index: int) -> QColor:
     """Colour of a contestant: of its swatch and its curves."""
     return QColor(COLOURS[index % len(COLOURS)])
+
+
+def swatch_of(index: int) -> QPixmap:
+    """The colour on a light rim, so that it is seen on every background."""
+    swatch = QPixmap(12, 12)
+    swatch.fill("white")
+    painter = QPainter(swatch)
+    painter.fillRect(1, 1, 10, 10, colour_of(index))
+    painter.end()
+    return swatch
 
 
 class LinkedTool(NavigationTool):
@@ -124,9 +134,7 @@ class ContestantPane(QWidget):
     def show_record(self, record: RaceRecord) -> None:
         """Name, numbers and how it stands."""
         frame = record.frame
-        swatch = QPixmap(11, 11)
-        swatch.fill(colour_of(self.shown))
-        self.swatch.setPixmap(swatch)
+        self.swatch.setPixmap(swatch_of(self.shown))
         self.name.setText(f"{record.label}  (flipped)" if self.is_flipped else record.label)
         self.switch_action.setEnabled(frame is not None)
         self.take_action.setEnabled(frame is not None)

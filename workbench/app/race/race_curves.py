@@ -11,9 +11,11 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from workbench.app.docks.convergence_dock import thinned
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
+from workbench.app.docks.switch_marks import SwitchMarks
 from workbench.app.race.contestant_pane import colour_of
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.race_record import relative_errors
+from workbench.app.switches import Switch
 from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 from workbench.engine.race_messages import Axis
@@ -59,7 +61,7 @@ class RaceCurves(QWidget):
             self._cursors.append(cursor)
         self.curves: dict[tuple[str, int], pg.PlotDataItem] = {}
         self.markers: dict[tuple[str, int], pg.PlotDataItem] = {}
-        self._is_stale = False
+        self._marks = SwitchMarks(self.graphics, self._plots)
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(INTERVAL)
@@ -88,6 +90,7 @@ class RaceCurves(QWidget):
 
     def set_theme(self, theme: Theme) -> None:
         self.graphics.setBackground(theme.view)
+        self._marks.set_theme(theme)
         for plot, cursor, (_, title) in zip(self._plots, self._cursors, PLOTS, strict=True):
             plot.setTitle(title, color=theme.text, size="9pt")
             paint_axes(plot, theme)
@@ -140,6 +143,17 @@ class RaceCurves(QWidget):
                 self._set(self.markers[name, index], name, x[marks], y[marks])
             self._show_range(plot, name, abscissas)
         self._show_cursor()
+        # the lines know no logarithms
+        self._marks.show([] if self.is_logarithmic["x"] else self._switches(), self.axis)
+
+    def _switches(self) -> list[Switch]:
+        """Whatever was switched, and by whom, in the order of the axis."""
+        found = []
+        for record in self._model.records:
+            for marker in record.frame.markers if record.frame is not None else ():
+                words = f"{record.label}: {marker.sentence}"
+                found.append(Switch(marker.index, marker.iteration, marker.seconds, words))
+        return sorted(found, key=lambda switch: float(getattr(switch, self.axis)))
 
     def _set(self, item: pg.PlotDataItem, name: str, x: Floats, y: Floats, *, is_given: bool = False) -> None:
         if is_given and len(x) == 1:  # a map from elsewhere is a level line

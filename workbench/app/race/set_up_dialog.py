@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QPixmap
+from PySide6.QtGui import QColor, QIcon
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
@@ -30,7 +30,7 @@ from PySide6.QtWidgets import (
 
 from workbench.app.background import Background
 from workbench.app.panels.method_form import MethodForm
-from workbench.app.race.contestant_pane import colour_of
+from workbench.app.race.contestant_pane import swatch_of
 from workbench.app.race.draft import MOST, Draft, free_label, misfit, what_is_wrong
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
@@ -262,8 +262,7 @@ class SetUpDialog(QDialog):
         self.list.blockSignals(True)
         self.list.clear()
         for index, draft in enumerate(self.drafts):
-            swatch = QPixmap(12, 12)
-            swatch.fill(colour_of(index))
+            swatch = swatch_of(index)
             icon = QIcon(swatch)
             icon.addPixmap(swatch, QIcon.Mode.Selected)  # else it is tinted away
             item = QListWidgetItem(icon, draft.label)
