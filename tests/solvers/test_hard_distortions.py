@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from workbench.core.run import RunResult, run
 from workbench.core.samples import make_sample
 from workbench.core.status import Status
 from workbench.engine.starts import make_start
+from workbench.io.opening import open_source
 
 
 def newton(
@@ -110,7 +112,9 @@ def test_a_norm_that_vanishes_at_the_start_is_at_its_minimum_there(formula: str,
         assert energies[-1] <= energies[0]
 
 
-@pytest.mark.parametrize(("id", "values"), [("dirichlet", {}), ("lp-gauge", {"p": 2.0}), ("lp-gauge", {"p": 3.0})])
+@pytest.mark.parametrize(
+    ("id", "values"), [("dirichlet", {}), ("lp-gauge", {"p": 2.0}), ("lp-gauge", {"p": 3.0}), ("ky-fan", {"k": 2})]
+)
 def test_convex_energies_have_one_minimum_from_three_starts(id: str, values: dict[str, float]) -> None:
     """The problems of Fig. 18: a bar with its ends held."""
     mesh = make_sample("bar-3d", triangles=600)
@@ -126,6 +130,42 @@ def test_convex_energies_have_one_minimum_from_three_starts(id: str, values: dic
     turned = np.hstack([v[:, :1], centre[1] + cosine * y - sine * z, centre[2] + sine * y + cosine * z])
     energies = [newton(problem, start, 1e-12)[0].state.energy for start in (v, bent, turned)]
     assert max(energies) - min(energies) <= 1e-8 * min(energies)
+
+
+def test_without_a_barrier_the_step_bound_is_not_what_stops_newton(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, y = grid(16).vertices.T
+    height = 2.0 * np.exp(-30.0 * ((x - 0.35) ** 2 + (y - 0.6) ** 2)) + 1.5 * np.exp(-40.0 * ((x - 0.75) ** 2 + (y - 0.3) ** 2))
+    fingers = Mesh(np.column_stack([x, y, height]), grid(16).simplices)  # the start crowds their tips together
+    start = make_start(fingers, "parameterize", "tutte", {}, "", False)
+    problem = Problem.create(fingers, "parameterize", Distortion.resolve("max(abs(sigma - 1))"))
+    result, _ = newton(problem, start)
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    monkeypatch.setattr(registry().solvers["projected-newton"], "takes_fences", False)
+    assert newton(problem, start)[0].state.energy > 1.1 * result.state.energy  # stuck
+
+
+@pytest.mark.parametrize("id", ["arap", "arap-barrier"])
+def test_arap_of_a_hand_comes_as_low_as_with_a_faint_barrier(id: str, data_folder: Path) -> None:
+    opened = open_source(str(data_folder / "odedstein-meshes/hand/hand_lowres.obj"))
+    start = make_start(opened.mesh, "parameterize", "tutte", {}, "", False)
+    problem = Problem.create(opened.mesh, "parameterize", registry().distortions[id])
+    result, _ = newton(problem, start)
+    assert result.state.status is Status.CONVERGED
+    assert result.state.inverted == 0
+    guarded, _ = newton(Problem.create(opened.mesh, "parameterize", Distortion.resolve("arap + 1e-5/det")), start)
+    assert result.state.energy < problem.energy(guarded.state.positions) * (1 + 1e-3)
+
+
+@pytest.mark.parametrize("id", ["spectral", "ky-fan"])
+@pytest.mark.parametrize("kind", ["plane", "volume"])
+def test_norms_of_the_largest_values_shrink_a_free_map_to_nothing(id: str, kind: str) -> None:
+    mesh = grid(6) if kind == "plane" else tetrahedral_grid(2)
+    start = mesh.vertices + 0.2 * np.sin(4 * mesh.vertices) ** 2 @ np.diag([0.5, 1.0, 0.7][: mesh.dimension])
+    result, _ = newton(Problem.create(mesh, kind, registry().distortions[id]), start)  # type: ignore[arg-type]
+    assert result.state.status is Status.CONVERGED
+    assert 0.0 <= result.state.energy < 1e-9
+    assert result.state.inverted == 0
 
 
 def test_a_filtered_barrier_lets_inverted_triangles_unfold_and_holds_the_others() -> None:

@@ -36,6 +36,7 @@ class Distortion:
                            holds on the others only. Where there is no start, the sign of the last singular value decides
     power : float          D is raised to it, or is the logarithm of the formula where it is 0 (see `tempered`)
     softening : float      sqrt(sigma_i^2 + softening^2) stands for each sigma_i
+    fence : float          fence/det is added
     """
 
     id: str
@@ -51,6 +52,7 @@ class Distortion:
     formula_on_inverted: str = ""
     power: float = 1.0
     softening: float = 0.0
+    fence: float = 0.0
 
     def with_values(self, values: Mapping[str, Any]) -> Distortion:
         """The same distortion with other parameter values. Raises `WorkbenchError` for unknown names or ranges."""
@@ -86,6 +88,7 @@ class Distortion:
                 text_on_inverted=self.formula_on_inverted,
                 power=self.power,
                 softening=self.softening,
+                fence=self.fence,
             )
         return self._compiled[dimension]
 
@@ -124,8 +127,10 @@ class Distortion:
 
     def has_barrier(self, dimension: int) -> bool:
         """Whether D is +inf on det <= 0."""
-        if self.barrier is not None:
-            return self.barrier
+        return self.rises_to_barrier(dimension) if self.barrier is None else self.barrier
+
+    def rises_to_barrier(self, dimension: int) -> bool:
+        """Whether the formula itself is +inf at a collapse; a declared barrier may be a jump instead."""
         # Infinite, undefined or steeper than any power root as sigma_n -> 0 with the others at 1.
         sigma = np.ones((2, dimension))
         sigma[:, -1] = (0.0, 1e-200)

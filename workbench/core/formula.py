@@ -11,7 +11,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 
@@ -78,6 +78,7 @@ def compile_formula(
     text_on_inverted: str = "",
     power: float = 1.0,
     softening: float = 0.0,
+    fence: float = 0.0,
 ) -> CompiledFormula:
     """Check and compile a formula.
 
@@ -89,6 +90,7 @@ def compile_formula(
     resolve : callable   name with underscores -> (formula, its parameters) of another distortion, or None
     text_on_inverted : str   a second formula for simplices that are inverted at the start
     softening : float    sqrt(sigma_i^2 + softening^2) stands for each sigma_i
+    fence : float        fence/det is added
     power : float        compile D^power instead, or log D where it is 0, of a formula made of exponentials
 
     Raises `FormulaError` with a sentence and the place for everything that is not allowed.
@@ -102,6 +104,8 @@ def compile_formula(
     exponent = logarithm(graph, root) if power != 1.0 else None
     if exponent is not None:
         root = graph.exp(graph.multiply(graph.constant(power), exponent)) if power else exponent
+    if fence:
+        root = graph.add(root, graph.divide(graph.constant(fence), reduce(graph.multiply, graph.variables)))
     if text_on_inverted:
         other = _read_number(graph, bound, resolve, text_on_inverted)
         root = graph.select(graph.datum(), graph.one, root, other)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.fence import fenced_step
 from workbench.core.overflow import tempered_step
 from workbench.core.problem import Problem
 from workbench.core.softening import softened_step
@@ -49,9 +50,9 @@ def checked(solver: Solver, problem: Problem, state: State, following: State) ->
 
 
 def _step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
-    """A step in stages where a plain one would fail: on exponentials far out, on norms that collapse simplices."""
+    """A step in stages where a plain one would fail: exponentials far out, norms that collapse simplices, no barrier."""
     if problem.may_overflow:
         return tempered_step(solver, problem, state, interrupt)
     if problem.may_collapse:
         return softened_step(solver, problem, state, interrupt)
-    return solver.step(problem, state, interrupt)
+    return fenced_step(solver, problem, state, interrupt)

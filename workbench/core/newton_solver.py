@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from workbench.core.arrays import Floats
 from workbench.core.descent import descend
@@ -26,6 +26,8 @@ class NewtonSolver(DescentSolver):
     Where the full step is accepted, a longer one is tried: a matrix made convex is too stiff, and a trial is cheap beside
     a factorisation.
     """
+
+    takes_fences: ClassVar[bool] = True
 
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
     reach: float = parameter(4.0, "longest step tried, in Newton steps; 1: never a longer one", minimum=1.0, maximum=10.0)

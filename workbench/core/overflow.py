@@ -1,10 +1,10 @@
 """Exponential distortions far from their minimum: a descent on a small power of them until they can be computed.
 
-The energy of exp(g) overflows where g passes 709, and long before that its Hessian weighs one simplex 1e100 times another, so
-that a factorisation loses what holds the rest. While the mean distortion is beyond `FAR`, a step is taken on the sum of
-w exp(p g) instead, with p so small that its mean stays near `FAR`, or on the sum of w g while nothing else can be computed;
-every solver works on those as on any other energy. The step is kept only if the energy proper does not rise by it: else p
-is doubled, up to 1.
+The energy of exp(g), and of all that is made of such parts, overflows where g passes 709, and long before that its Hessian
+weighs one simplex 1e100 times another, so that a factorisation loses what holds the rest. While the mean distortion is beyond
+`FAR`, a step is taken on the sum of w D^p instead, with p so small that its mean stays near `FAR`, or on the sum of w log D
+while nothing else can be computed; every solver works on those as on any other energy. The step is kept only if the energy
+proper does not rise by it: else p is doubled, up to 1.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Tempered:
 
 
 def tempered_step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:
-    """`solver.step` for a distortion that is an exponential, on a power of it while it is far from its minimum."""
+    """`solver.step` for a distortion made of exponentials, on a power of it while it is far from its minimum."""
     if state.energy <= FAR * problem.total_measure:
         return _direct(solver, problem, state, interrupt)
     wanted = _power(problem, state)

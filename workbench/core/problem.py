@@ -153,7 +153,7 @@ class Problem:
 
     @cached_property
     def may_overflow(self) -> bool:
-        """Whether the distortion is an exponential, which `tempered` tames."""
+        """Whether the distortion is made of exponentials, which `tempered` tames."""
         return self.distortion.tempered(self.dimension) is not None
 
     def tempered(self, power: float) -> Problem:
@@ -170,6 +170,16 @@ class Problem:
     def softened(self, softening: float) -> Problem:
         """The same problem on sqrt(sigma^2 + softening^2) in place of sigma; see `may_collapse`."""
         distortion = replace(self.distortion, softening=softening, barrier=False)
+        return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
+
+    @cached_property
+    def needs_fence(self) -> bool:
+        """Whether nothing but the step bound keeps simplices from inverting."""
+        return self.forbids_inversions and not self.distortion.rises_to_barrier(self.dimension)
+
+    def fenced(self, fence: float) -> Problem:
+        """The same problem with fence/det added to the distortion; see `needs_fence`."""
+        distortion = replace(self.distortion, fence=fence, barrier=True)
         return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
 
     def with_criteria(self, criteria: Criteria) -> Problem:

@@ -41,6 +41,8 @@ class Solver(Method, ABC):
     """Whether the energy never rises in a step once the anchors are in place."""
     initializer: ClassVar[str] = ""
     """Id of the start that it wishes for; empty: the default of the kind of map."""
+    takes_fences: ClassVar[bool] = False
+    """Whether steps that the step bound shortens are taken along a fence (see `workbench.core.fence`)."""
     distortions: ClassVar[tuple[str, ...]] = ()
     """Ids of the distortions that it can minimise; empty: all."""
 
