@@ -12,6 +12,10 @@ from pytestqt.qtbot import QtBot
 from tests.app.conftest import WindowMaker
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
+from workbench.core.distortion import Distortion
+from workbench.core.method import Parameter
+from workbench.core.registry import registry
+from workbench.engine.messages import Watch
 
 TYPED = "t*(sigma1 - sigma2)"
 
@@ -100,3 +104,34 @@ def test_what_cannot_be_shown_leaves_views_as_they_begin(
     assert [dock.quantity for dock in window.maps] == ["dirichlet", "condition-number", "symmetric-dirichlet"]
     assert window.quantities.range_of("sigma1").is_logarithmic
     assert "views" in window.view_memory.state()
+
+
+def test_views_go_on_with_a_formula_that_is_renamed_or_deleted(window: MainWindow, qtbot: QtBot) -> None:
+    book = window.quantities
+    qtbot.waitUntil(lambda: book.is_listed)
+    parameter = Parameter("t", float, 2.0)
+
+    def list_own(*items: Distortion) -> None:
+        book.list_distortions([*registry().distortions.values(), *items], own=[item.id for item in items])
+
+    other = Distortion("other-own", "Other", "det^2")
+    list_own(Distortion("mine", "Mine", TYPED, parameters=(parameter,)), other)
+    for show in (window.maps[1].show_quantity, window.histogram.show_quantity, window.set_target_style):
+        show("mine")
+    window.set_source_style("other-own")
+    list_own(Distortion("yours", "Yours", TYPED, parameters=(parameter,)), other)
+    assert window.histogram.quantity == window.maps[1].quantity == window.colouring.style_of(window.target) == "yours"
+    assert window.histogram.chooser.currentText() == "Yours"
+    assert window.colouring.style_of(window.source) == "other-own", "what is still there is left alone"
+    list_own(other)
+    typed = f"{TYPED} [t=2]"
+    assert window.histogram.quantity == window.maps[1].quantity == window.colouring.style_of(window.target) == typed
+    assert window.target.chooser.currentText() == typed
+    qtbot.waitUntil(lambda: typed in window.document.snapshot.fields)
+    watched = [c for c in window.bridge._worker.commands if isinstance(c, Watch)][-1]
+    assert not {"mine", "yours"} & {measure.text for measure in watched.measures}
+    window.set_source_style("checkerboard")
+    window.set_target_style("plain")
+    window.histogram.show_quantity("average-singular-value")
+    window.maps[1].show_quantity("condition-number")
+    list_own()

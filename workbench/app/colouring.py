@@ -36,6 +36,7 @@ class Colouring(QObject):
         document.opened.connect(self._forget)
         document.session_changed.connect(self._take_choice)
         book.listed.connect(self._take_choice)
+        book.replaced.connect(self._replace)
         for panel in self._panels:
             panel.quantity_changed.connect(self.watch)
             panel.visibilityChanged.connect(lambda _: self.watch())
@@ -50,6 +51,15 @@ class Colouring(QObject):
         pane.set_style(style)
         self.apply(pane)
         self.watch()
+
+    def _replace(self, old: str, new: str) -> None:
+        """Show another quantity wherever this one was shown."""
+        for pane, style in list(self._styles.items()):
+            if style == old:
+                self.set_style(pane, new)
+        for panel in self._panels:
+            if panel.quantity == old:
+                panel.show_quantity(new)
 
     def shown(self) -> set[str]:
         """Ids of the quantities that are to be seen somewhere."""

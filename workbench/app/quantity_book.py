@@ -22,15 +22,20 @@ from workbench.core.errors import WorkbenchError
 
 
 class QuantityBook(QObject):
-    """Quantities by id, in the order of the lists; `listed` tells that there are others now, `range_changed` names one."""
+    """Quantities by id, in the order of the lists; `listed` tells that there are others now, `range_changed` names one.
+
+    A formula of one's own that is shown may be renamed or deleted: `replaced` then names what to show in its place.
+    """
 
     listed = Signal()
+    replaced = Signal(str, str)
     range_changed = Signal(str)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._quantities: dict[str, Quantity] = {q.id: q for q in (IN_FORCE, *LIVE_QUANTITIES, *FACTORS)}
         self._ranges: dict[str, ColourRange] = {}
+        self._own: dict[str, Distortion] = {}
         self._holds_all = False
         self._chosen: tuple[str, dict[str, float]] | None = None
         self.is_listed = False
@@ -61,9 +66,12 @@ class QuantityBook(QObject):
         """Offer these registered distortions, those whose ids are in `own` by themselves; others offered before go."""
         fixed = {id: q for id, q in self._quantities.items() if q.group in ("in force", "live", "factors")}
         offered = []
+        before, self._own = self._own, {}
         for item in items:
             if item.id in fixed:
                 continue
+            if item.id in own:
+                self._own[item.id] = item
             try:
                 offered.append(quantity_of_distortion(item, "own" if item.id in own else "distortions"))
             except WorkbenchError:
@@ -76,7 +84,24 @@ class QuantityBook(QObject):
                 self._redefine(self._quantities[id])  # a formula of one's own may have been changed
         self.is_listed = True
         self._chosen = None
+        heirs = [(id, self._heir(item)) for id, item in before.items() if id in self._ranges and id not in self._quantities]
         self.listed.emit()
+        for id, heir in heirs:
+            if heir is not None:
+                self.replaced.emit(id, heir)
+
+    def _heir(self, item: Distortion) -> str | None:
+        """What is left of a formula of one's own: the same by another name, else its text as if it were typed."""
+        for id, other in self._own.items():
+            is_same = (other.formula, other.parameter_values) == (item.formula, item.parameter_values)
+            if is_same and id in self._quantities:
+                return id
+        try:
+            quantity = quantity_of_formula(item.formula, item.parameter_values)
+        except WorkbenchError:
+            return None  # it names a formula that is gone, too
+        self._quantities.setdefault(quantity.id, quantity)
+        return quantity.id
 
     def set_in_force(self, text: str, parameters: Mapping[str, float]) -> None:
         """The distortion that is minimised is another one, or has other parameters."""

@@ -86,5 +86,7 @@ def paint_axes(plot: pg.PlotItem, theme: Theme) -> None:
         axis.enableAutoSIPrefix(False)
         axis.setPen(theme.faint)
         axis.setTextPen(theme.text)
+        if side == "bottom":
+            axis.setTickDensity(0.7)
         # a number at the very end may stand out as far as half of it
         axis.setStyle(tickLength=4, maxTickLevel=0, hideOverlappingLabels=OVERHANG)
