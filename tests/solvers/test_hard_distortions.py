@@ -193,3 +193,21 @@ def test_a_filtered_barrier_lets_inverted_triangles_unfold_and_holds_the_others(
     assert result.state.inverted == 0
     clean = newton(problem, mesh.vertices)[0]
     assert clean.state.energy == pytest.approx(4.0 * problem.total_measure, rel=1e-9)
+
+
+def test_what_has_just_unfolded_does_not_hold_the_whole_map(data_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    case = open_source(str(data_folder / "cases/abcd_elephant_2k.npz"))  # 786 of 1796 triangles are inverted at its start
+    mesh, start = case.mesh, case.start
+    assert start is not None and case.anchor_vertices is not None and case.anchor_targets is not None
+    anchors = Anchors(case.anchor_vertices, case.anchor_targets)
+    problem = Problem.create(mesh, "plane", registry().distortions["symmetric-dirichlet-filtered"], anchors)
+    upright = problem.from_start(start).density.kept > 0.5
+    result, _ = newton(problem, start)
+    assert result.state.status is Status.CONVERGED
+    assert determinants(problem.elements, result.state.positions)[upright].min() > 0
+    assert result.state.gradient_norm < 1.0
+    assert result.state.inverted < 100
+    monkeypatch.setattr(Problem, "held_simplices", lambda self, inverted: slice(None))
+    stuck, _ = newton(problem, start)
+    assert stuck.state.gradient_norm > 1e6
+    assert stuck.state.energy > 100 * result.state.energy

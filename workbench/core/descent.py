@@ -72,10 +72,11 @@ def descend(
     limiting = -1
     with problem.workspace.timed("line_search"):
         if problem.forbids_inversions:
-            bound, simplex = largest_step(x, direction, problem.elements.simplices)
+            held = problem.held_simplices(state.inverted)
+            bound, simplex = largest_step(x, direction, problem.elements.simplices[held])
             furthest = min(furthest, safety * bound)
             if safety * bound < first:
-                first, limiting = safety * bound, simplex
+                first, limiting = safety * bound, int(np.arange(len(problem.elements.simplices))[held][simplex])
         search = problem.energy_and_inverted
         most = problem.most_inverted(state.inverted)
         found = armijo(

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Booleans, Floats
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Energy, Evaluation
@@ -213,6 +213,14 @@ class Problem:
     def forbids_inversions(self) -> bool:
         """Whether a map without inverted simplices must stay so: always, unless inversions are allowed and finite."""
         return self.density.has_barrier or not self.density.allow_inversions
+
+    def held_simplices(self, inverted: int) -> Booleans | slice:
+        """Which simplices a step may not invert, from a map that has `inverted` of them.
+
+        All of them; while some are inverted, those whose barrier is removed are free, or one that has just unfolded, with
+        nothing that keeps it so, would hold the whole map.
+        """
+        return self.density.kept > 0.5 if inverted and len(self.density.kept) else slice(None)
 
     def most_inverted(self, inverted: int) -> float:
         """Inverted simplices that a step may leave, from a map that has `inverted` of them."""
