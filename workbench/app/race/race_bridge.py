@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from typing import Any
 
@@ -13,10 +14,10 @@ from workbench.engine.race_messages import RaceEnded, RaceFrame, RacePhase, Race
 
 
 def race_worker(wake: Callable[[], None]) -> Worker:
-    """The real one: the race runs in a process of its own."""
+    """The real one: the race runs in a process of its own, and leaves a core to the drawing of its many views."""
     from workbench.engine.race_worker import RaceWorker
 
-    return RaceWorker(wake, gives_way=True)
+    return RaceWorker(wake, threads=max((os.cpu_count() or 2) - 1, 1), gives_way=True)
 
 
 class RaceBridge(ReportBridge):

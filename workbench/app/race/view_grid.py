@@ -194,6 +194,7 @@ class ViewGrid(QWidget):
             in_row = min(columns, count - row * columns)
             left, right = column * self.width() // in_row, (column + 1) * self.width() // in_row
             top, bottom = row * self.height() // rows, (row + 1) * self.height() // rows
-            pane.setGeometry(left, top, right - left - (GAP if column < in_row - 1 else 0), bottom - top)
+            # the gap at the right end, too: a picture that touches the curves has them painted anew
+            pane.setGeometry(left, top, right - left - GAP, bottom - top)
         if self._wants_fit:
             self.fit()
