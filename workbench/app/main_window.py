@@ -7,7 +7,7 @@ from typing import Any
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QDockWidget, QMainWindow, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
@@ -16,6 +16,7 @@ from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.docks.convergence_dock import ConvergenceDock
+from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.histogram_dock import HistogramDock
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
@@ -129,6 +130,7 @@ class MainWindow(QMainWindow):
         self.panel.distortion.tools.use_settings(self.settings)
         self.panel_dock = QDockWidget("Choices", self)
         self.panel_dock.setObjectName("choices")
+        self.panel_dock.setTitleBarWidget(DockTitle(self.panel_dock, QLabel(self.panel_dock.windowTitle(), self)))
         self.panel_dock.setWidget(self.panel)
         self.maps = [ColourMapDock(self.quantities, quantity.id, self.theme, self) for quantity in LIVE_QUANTITIES]
         self.histogram = HistogramDock(self.quantities, self.brush, self.theme, self)

@@ -6,6 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.docks.switch_marks import SwitchMarks
 from workbench.app.history import History
@@ -26,6 +27,7 @@ class ConvergenceDock(QDockWidget):
     def __init__(self, history: History, switches: Switches, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__("Convergence", parent)
         self.setObjectName("convergence")
+        self.setTitleBarWidget(DockTitle(self, QLabel(self.windowTitle(), self)))
         self._history = history
         self._switches = switches
         body = QWidget(self)

@@ -30,6 +30,7 @@ class DockTitle(QWidget):
         for picture, (deed, tip) in self._buttons.items():
             button = QToolButton(self)
             button.setAutoRaise(True)
+            button.setObjectName("dock-button")
             button.setIconSize(QSize(10, 10))
             button.setFixedSize(16, 16)
             button.setToolTip(tip)

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.docks.dock_title import DockTitle
 from workbench.app.document import Document
 from workbench.app.icons import icon
 from workbench.app.inspector.curves_page import CurvesPage
@@ -89,6 +90,7 @@ class InspectorDock(QDockWidget):
     def __init__(self, document: Document, brush: SimplexBrush, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__("Inspector", parent)
         self.setObjectName("inspector")
+        self.setTitleBarWidget(DockTitle(self, QLabel(self.windowTitle(), self)))
         self._maps: Sequence[QDockWidget] = ()
         self._made_room = False
         self._column: list[QDockWidget] = []
