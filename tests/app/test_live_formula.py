@@ -51,7 +51,7 @@ def test_a_slider_moves_the_running_map_and_what_does_not_suit_it_is_refused(mak
 
     here = document.positions
     box.edit.selectAll()
-    QTest.keyClicks(box.edit, "log(2.05 - sigma1) + sum(sigma^2)")  # finite at ordinary values, not on this map
+    QTest.keyClicks(box.edit, "log(1.4 - sigma1/sigma2) + sum(sigma^2)")  # finite at ordinary values, not on this map
     QTest.keyClick(box.edit, Qt.Key.Key_Return)
     qtbot.waitUntil(window.error_bar.isVisible, timeout=LONG)
     assert "finite number" in box.error.text()
