@@ -35,7 +35,8 @@ class LeastSquaresConformal(Initializer):
         distance = float(np.linalg.norm(mesh.vertices[loop[first]] - mesh.vertices[loop[second]]))
         held = 2 * loop[[first, first, second, second]] + np.array([0, 1, 0, 1])
         places = np.array([[0.0], [0.0], [distance], [0.0]])
-        positions = solve_with_fixed(conformal_energy(mesh), held, places).reshape(-1, 2)
+        order = (2 * mesh.elimination_order[:, None] + np.arange(2)).ravel()
+        positions = solve_with_fixed(conformal_energy(mesh), held, places, order).reshape(-1, 2)
         if signed_areas(positions, mesh.simplices).sum() < 0:
             positions[:, 1] *= -1.0
         return positions

@@ -109,7 +109,8 @@ def map_disc(mesh: Mesh, weights: Floats, shape: BoundaryShape, repair: bool) ->
 
 
 def _solved(mesh: Mesh, weights: Floats, loop: Integers, outline: Floats) -> Floats:
-    return solve_with_fixed(laplacian(mesh.simplices, weights, mesh.vertex_count), loop, outline)
+    matrix = laplacian(mesh.simplices, weights, mesh.vertex_count)
+    return solve_with_fixed(matrix, loop, outline, mesh.elimination_order)
 
 
 def _attempts(mesh: Mesh, weights: Floats) -> Iterator[Floats]:

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.errors import WorkbenchError
 
@@ -23,11 +23,12 @@ class DefiniteFactor:
     Parameters
     ----------
     matrix : (N, N) sparse     symmetric; both triangles given
+    order : (N,) int64         order of elimination, where a good one is known
 
     Raises `WorkbenchError` where the matrix is not positive definite to working precision.
     """
 
-    def __init__(self, matrix: Any) -> None:
+    def __init__(self, matrix: Any, order: Integers | None = None) -> None:
         matrix = sparse.csc_matrix(matrix)
         diagonal = matrix.diagonal()
         if not (diagonal > 0).all():
@@ -40,14 +41,15 @@ class DefiniteFactor:
         except ImportError:
             self._factorise_superlu()
         else:
-            self._factorise_cholmod(cvxopt)
+            self._factorise_cholmod(cvxopt, order)
 
-    def _factorise_cholmod(self, cvxopt: Any) -> None:
+    def _factorise_cholmod(self, cvxopt: Any, order: Integers | None) -> None:
         lower = sparse.tril(self._matrix, format="coo")
         rows, columns = (cvxopt.matrix(np.ascontiguousarray(part, dtype=np.int64)) for part in (lower.row, lower.col))
         values = cvxopt.matrix(np.ascontiguousarray(lower.data))
         matrix = cvxopt.spmatrix(values, rows, columns, self._matrix.shape)
-        factor = cvxopt.cholmod.symbolic(matrix)
+        known = () if order is None else (cvxopt.matrix(np.ascontiguousarray(order, dtype=np.int64)),)
+        factor = cvxopt.cholmod.symbolic(matrix, *known)
         try:
             cvxopt.cholmod.numeric(matrix, factor)
         except ArithmeticError:
@@ -81,7 +83,7 @@ class DefiniteFactor:
         return result
 
 
-def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats) -> Floats:
+def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats, order: Integers | None = None) -> Floats:
     """Minimiser of x^T M x with some rows of x given.
 
     Parameters
@@ -89,6 +91,7 @@ def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats) -> Floats:
     matrix : (N, N) sparse        symmetric, positive definite on the free rows
     fixed : (k,) int64            rows that are given
     values : (k, c) float64       their values
+    order : (N,) int64            order of elimination of all rows, where a good one is known
 
     Returns
     -------
@@ -104,7 +107,8 @@ def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats) -> Floats:
         # Values near zero keep more digits: what all have in common is taken out first.
         centre = values.mean(axis=0) if np.allclose(matrix @ np.ones(matrix.shape[0]), 0.0, atol=1e-9) else 0.0
         rows = matrix[free]
-        result[free] = DefiniteFactor(rows[:, free]).solve(-(rows[:, fixed] @ (values - centre))) + centre
+        kept = None if order is None else (np.cumsum(is_free) - 1)[order[is_free[order]]]
+        result[free] = DefiniteFactor(rows[:, free], kept).solve(-(rows[:, fixed] @ (values - centre))) + centre
     return result
 
 

@@ -11,6 +11,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
 from workbench.core.element_kernels import derivatives_2d, derivatives_3d, energy_2d, energy_3d
 from workbench.core.jacobians import Elements, determinants
+from workbench.core.mesh import Mesh
 from workbench.core.pattern import HessianPattern, build_pattern
 from workbench.core.tape import Tape
 from workbench.core.threads import over_ranges
@@ -37,6 +38,7 @@ class Energy:
     """Sum of w D over the simplices of a source.
 
     `kept` : (m,) float64, 1 where the barrier holds and 0 where a simplex was inverted at the start; empty where all keep it
+    `mesh` : what the elements are of; its order of elimination serves the pattern, too
     """
 
     elements: Elements
@@ -44,6 +46,7 @@ class Energy:
     allow_inversions: bool = False
     _shared: dict[str, HessianPattern] = field(default_factory=dict, repr=False)
     kept: Floats = field(default_factory=lambda: EVERY, repr=False)
+    mesh: Mesh | None = field(default=None, repr=False)
 
     @property
     def pattern(self) -> HessianPattern:
@@ -63,6 +66,8 @@ class Energy:
 
     @property
     def _known_order(self) -> Integers | None:
+        if self.mesh is not None:
+            return self.mesh.elimination_order
         return next((pattern.order for pattern in self._shared.values()), None)
 
     def with_distortion(self, distortion: Distortion, allow_inversions: bool) -> Energy:

@@ -36,7 +36,7 @@ def dirichlet_matrix(mesh: Mesh) -> sparse.csr_matrix:
 
 def harmonic_extension(mesh: Mesh, fixed: Integers) -> Floats:
     """Minimiser (n, d) of the Dirichlet energy with the vertices `fixed` (k,) where they are in the source."""
-    return solve_with_fixed(dirichlet_matrix(mesh), fixed, mesh.vertices[fixed])
+    return solve_with_fixed(dirichlet_matrix(mesh), fixed, mesh.vertices[fixed], mesh.elimination_order)
 
 
 def conformal_energy(mesh: Mesh) -> sparse.csr_matrix:

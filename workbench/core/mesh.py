@@ -99,6 +99,13 @@ class Mesh:
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
     @cached_property
+    def elimination_order(self) -> Integers:
+        """(n,) vertices in an order that keeps the factors of matrices on this mesh sparse; found once, for all of them."""
+        from workbench.core.pattern import elimination_order, vertex_graph
+
+        return frozen(elimination_order(vertex_graph(self.simplices, self.vertex_count)), np.int64)
+
+    @cached_property
     def topology(self) -> Topology:
         from workbench.core.topology import analyse_topology
 

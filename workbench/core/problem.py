@@ -131,7 +131,7 @@ class Problem:
         `FormulaError` where the distortion does not exist in this dimension.
         """
         distortion.compiled(mesh.dimension)
-        energy = Energy(build_elements(mesh), distortion, allow_inversions)
+        energy = Energy(build_elements(mesh), distortion, allow_inversions, mesh=mesh)
         return Problem(mesh, kind, energy, anchors or Anchors.none(mesh.dimension), constraints, criteria or Criteria())
 
     # ---------------------------------------------------------------------------------------- variants
