@@ -48,6 +48,9 @@ def _address(widget: QWidget) -> int:
     """Of Qt's own object: Python makes a new wrapper each time it asks."""
     return int(shiboken6.getCppPointer(widget)[0])
 
+CHOICES = ("distortion", "distortion_parameters", "solver", "fixed_boundary", "allow_inversions", "match_area")
+"""Fields of the session that a test may change."""
+
 
 @pytest.fixture(autouse=True)
 def nothing_leaks(qapp: QApplication) -> Iterator[None]:
@@ -117,7 +120,7 @@ def window(kept_window: MainWindow, qtbot: QtBot) -> MainWindow:
     QTest.qWaitForWindowActive(kept_window)
     worker = kept_window.bridge._worker
     worker.commands.clear()
-    kept_window.document.choose(**{f: getattr(Session(), f) for f in ("distortion", "solver", "fixed_boundary", "match_area")})
+    kept_window.document.choose(**{f: getattr(Session(), f) for f in CHOICES})
     kept_window.open("grid")
     qtbot.waitUntil(lambda: kept_window.document.positions is not None and not kept_window.document.opening_source)
     qtbot.waitUntil(lambda: kept_window.target.view.geometry_shown is not None)

@@ -159,6 +159,10 @@ def test_choices_become_commands_while_it_runs(window: MainWindow) -> None:
     window.panel.boundary.setCurrentIndex(1)
     window.panel.boundary.activated.emit(1)
     assert commands(window, SetProblem)[-1].fixed_boundary
+    assert not commands(window, SetProblem)[-1].allow_inversions
+    window.panel.inversions.setCurrentIndex(1)
+    window.panel.inversions.activated.emit(1)
+    assert commands(window, SetProblem)[-1].allow_inversions
     row = window.panel.solver.combo.findData("gradient-descent")
     window.panel.solver.combo.setCurrentIndex(row)
     window.panel.solver.combo.activated.emit(row)

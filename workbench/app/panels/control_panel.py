@@ -115,14 +115,20 @@ class ControlPanel(QScrollArea):
         self.scale.setToolTip("Whether the start is scaled to the area of the source; a change makes it anew.")
         self.scale.activated.connect(lambda _: self._document.choose(match_area=self.scale.currentData()))
         layout.addRow("Kind", self.kind)
+        self.inversions = QComboBox(group)
+        self.inversions.addItem("Never made", False)
+        self.inversions.addItem("Allowed without a barrier", True)
+        self.inversions.setToolTip("Whether simplices may invert under a distortion without a barrier, such as ARAP.")
+        self.inversions.activated.connect(lambda _: self._document.choose(allow_inversions=self.inversions.currentData()))
         layout.addRow("Boundary", self.boundary)
+        layout.addRow("Inversions", self.inversions)
         layout.addRow("Scale", self.scale)
         self.kind_found = QLabel("", group)
         self.kind_found.setObjectName("citation")
         self.kind_found.setWordWrap(True)
         layout.addRow(self.kind_found)
         self._group("Map", group)
-        for box in (self.kind, self.boundary, self.scale):
+        for box in (self.kind, self.boundary, self.inversions, self.scale):
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
             box.setMinimumContentsLength(10)
 
@@ -151,6 +157,7 @@ class ControlPanel(QScrollArea):
         self.kind_found.setText(f"Found: {KIND_LABELS.get(found, found).lower()}." if is_auto else "")
         self.kind_found.setVisible(bool(is_auto))
         self.boundary.setCurrentIndex(self.boundary.findData(session.fixed_boundary))
+        self.inversions.setCurrentIndex(self.inversions.findData(session.allow_inversions))
         self.scale.setCurrentIndex(self.scale.findData(session.match_area))
         if self._registry is None:
             return
