@@ -12,9 +12,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from workbench.core.distortion import Distortion
+from workbench.core.distortion import Distortion, looks_like_id
 from workbench.core.errors import FormulaError, WorkbenchError
-from workbench.core.formula_names import check_names, looks_like_id, suggested_parameter, undeclared_names
+from workbench.core.formula_names import check_names, suggested_parameter, undeclared_names
 from workbench.core.method import Parameter
 from workbench.core.named_formulas import (
     LARGEST_FILE,

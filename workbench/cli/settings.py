@@ -29,8 +29,8 @@ def name_and_value(text: str) -> tuple[str, str]:
 
 def distortion_parameters(text: str) -> tuple[str, ...]:
     """Names that can be set for a distortion: its declared parameters; for a typed formula also its free names."""
-    from workbench.core.distortion import Distortion
-    from workbench.core.formula_names import looks_like_id, undeclared_names
+    from workbench.core.distortion import Distortion, looks_like_id
+    from workbench.core.formula_names import undeclared_names
     from workbench.core.registry import registry
 
     known = registry().distortions
@@ -50,7 +50,8 @@ def assign(
     Raises `WorkbenchError` for a name that none of them has, naming those that there are, and `FormulaError` for a name
     in a typed formula that is not set.
     """
-    from workbench.core.formula_names import check_names, looks_like_id
+    from workbench.core.distortion import looks_like_id
+    from workbench.core.formula_names import check_names
     from workbench.core.registry import registry
 
     names = (tuple(item.name for method in group for item in method.parameters()) for group in methods)

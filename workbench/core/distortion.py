@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -13,7 +12,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import FormulaError, WorkbenchError
-from workbench.core.formula import CompiledFormula, compile_formula, has_logarithm, names_in_formula
+from workbench.core.formula import CompiledFormula, compile_formula, names_in_formula
 from workbench.core.method import KINDS, Kind, Parameter
 from workbench.core.tape import Tape
 
@@ -107,7 +106,7 @@ class Distortion:
 
         Exponentials overflow on maps far from the minimum; the logarithm orders simplices alike and does not.
         """
-        if not has_logarithm(self.compiled(dimension)):
+        if not self.compiled(dimension).has_logarithm:
             return None
         return replace(self, power=power, barrier=self.has_barrier(dimension))
 
@@ -194,15 +193,15 @@ class Distortion:
         if text in known:
             distortion = known[text].with_values(values)
         else:
-            if re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", text) and "-" in text and not any(c.isdigit() for c in text):
-                names = text.split("-")
-                if not any(n.startswith("sigma") or n == "det" for n in names):
-                    raise FormulaError(
-                        f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma."
-                    )
+            if looks_like_id(text):
+                raise FormulaError(
+                    f"There is no distortion {text!r}; there are: {', '.join(sorted(known))}, or type a formula in sigma."
+                )
             distortion = Distortion.from_formula(text, values)
-        if not distortion.dimensions:
-            distortion.compiled(3)  # says what is wrong
+        try:
+            distortion.compiled(2)
+        except FormulaError:
+            distortion.compiled(3)  # it may have a meaning in space alone; else this says what is wrong
         return distortion
 
     @staticmethod
@@ -227,6 +226,13 @@ class Distortion:
             if name not in values:
                 form.append(item)
         return Distortion(id=text, label=text, formula=text, parameters=tuple(form)).with_values(values)
+
+
+def looks_like_id(text: str) -> bool:
+    """Whether a text means a distortion by its id (words joined by hyphens) rather than a formula."""
+    words = text.strip().split("-")
+    is_plain = len(words) > 1 and all(word.isascii() and word.isalpha() and word.islower() for word in words)
+    return is_plain and not any(word.startswith("sigma") or word == "det" for word in words)
 
 
 def _distortion_of(name: str) -> Distortion | None:

@@ -56,6 +56,11 @@ class CompiledFormula:
     looks_at_start: bool = False
 
     @cached_property
+    def has_logarithm(self) -> bool:
+        """Whether the formula is made of exponentials, so that its logarithm can be computed where they overflow."""
+        return logarithm(self.graph, self.root) is not None
+
+    @cached_property
     def is_kinked_at_ties(self) -> bool:
         """Whether D_i and D_j differ where sigma_i = sigma_j: then D is not smooth in the map there (max(sigma), say)."""
         n = self.dimension
@@ -127,11 +132,6 @@ def compile_formula(
         majoriser=majoriser,
         looks_at_start=bool(text_on_inverted),
     )
-
-
-def has_logarithm(compiled: CompiledFormula) -> bool:
-    """Whether a formula is made of exponentials, so that its logarithm can be computed where they overflow."""
-    return logarithm(compiled.graph, compiled.root) is not None
 
 
 def _read_number(

@@ -76,13 +76,6 @@ def check_names(text: str, declared: Iterable[str] = ()) -> None:
         raise FormulaError(f"{item.sentence}{remedy}", position=item.position)
 
 
-def looks_like_id(text: str) -> bool:
-    """Whether a text means a distortion by its id (words joined by hyphens) rather than a formula."""
-    words = text.strip().split("-")
-    is_plain = len(words) > 1 and all(word.isascii() and word.isalpha() and word.islower() for word in words)
-    return is_plain and not any(word.startswith("sigma") or word == "det" for word in words)
-
-
 def position_of(text: str, name: str) -> int:
     """Column where a name first stands as a word of its own; 0 where it does not."""
     match = re.search(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])", text)

@@ -151,10 +151,10 @@ class Problem:
         density = self.density.from_start(np.ascontiguousarray(positions, dtype=np.float64))
         return self if density is self.density else replace(self, density=density)
 
-    @cached_property
+    @property
     def may_overflow(self) -> bool:
         """Whether the distortion is made of exponentials, which `tempered` tames."""
-        return self.distortion.tempered(self.dimension) is not None
+        return self.distortion.compiled(self.dimension).has_logarithm
 
     def tempered(self, power: float) -> Problem:
         """The same problem with the distortion raised to `power`, or its logarithm where that is 0; see `may_overflow`."""

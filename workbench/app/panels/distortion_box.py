@@ -13,13 +13,12 @@ from workbench.app.panels.formula_tools import FormulaTools
 from workbench.app.panels.parameter_sliders import ParameterSliders
 from workbench.app.panels.value_pacer import ValuePacer
 from workbench.app.resolved import resolved
-from workbench.core.distortion import Distortion
+from workbench.core.distortion import Distortion, looks_like_id
 from workbench.core.errors import FormulaError, WorkbenchError
 from workbench.core.formula import FUNCTIONS
 from workbench.core.formula_names import (
     VARIABLES,
     UndeclaredName,
-    looks_like_id,
     suggested_parameter,
     undeclared_names,
 )
