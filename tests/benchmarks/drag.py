@@ -1,6 +1,7 @@
 """A scripted hand drags an anchor along a wild path: how long from an event to the map that holds it.
 
     python -m tests.benchmarks.drag [TRIANGLES ...]
+    python -m tests.benchmarks.drag --bar [TETRAHEDRA ...]      a corner of a solid bar, then a whole end as one group
 
 Prints, for each size: maps published, largest count of inverted simplices in any of them, percentiles of the time from an
 event to the first map that holds it or a newer one, and how far the anchor lags behind the hand (median, in diameters);
@@ -13,35 +14,29 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
+from tests.benchmarks.drag_hands import ScriptedHand, corner_hand, end_hand
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.measure import Measure
 from workbench.core.samples import make_sample
 from workbench.engine.messages import Failure, Load, Loaded, Reset, Run, SetAnchors, SetProblem, SetSolver, Snapshot, Watch
 from workbench.engine.worker import EngineWorker
 
+HandMaker = Callable[[np.ndarray, float], ScriptedHand]
+"""From the map (n, d) at the start and the diameter of the source"""
 EVENTS_A_SECOND = 60
 SECONDS = 10.0
 WATCHED = ("dirichlet", "condition-number", "symmetric-dirichlet", "average-singular-value")
 """What the window's panels show when it opens."""
 
 
-def wild_path(start: np.ndarray, diameter: float, seconds: float) -> np.ndarray:
-    """Target of the hand at `seconds`: loops of several speeds, up to a third of the diameter away."""
-    t = seconds
-    offset = np.array(
-        [
-            0.22 * np.sin(2.1 * t) + 0.10 * np.sin(7.3 * t + 1.0) - 0.10 * np.sin(1.0),
-            0.22 * np.sin(1.3 * t) + 0.10 * np.sin(9.1 * t),
-        ]
-    )
-    return start + diameter * offset
-
-
-def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> dict[str, float]:
+def drag(
+    path: str, make_hand: HandMaker = corner_hand, *, with_fields: bool = True, seconds: float = SECONDS
+) -> dict[str, float]:
     """Drive an engine as the window does; returns what `main` prints."""
     news = threading.Condition()
     seen: list[tuple[float, Snapshot]] = []
@@ -68,9 +63,9 @@ def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> di
     _await(news, lambda: bool(seen), 120)
     mesh, start = loaded[0].mesh, seen[-1][1].positions
     elements, diameter = build_elements(mesh), mesh.diameter
-    held = _corners(start)
-    targets = start[held].copy()
-    worker.post(_anchors(held, targets, 1, dragging=False))
+    hand = make_hand(start, diameter)
+    targets = hand.at(0.0)
+    worker.post(_anchors(hand.vertices, start[hand.vertices], 1, dragging=False))
     worker.post(Run())
     _await(news, lambda: seen[-1][1].phase == "finished", 120)
     seen.clear()
@@ -80,25 +75,24 @@ def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> di
     for event in range(int(seconds * EVENTS_A_SECOND)):
         due = begin + event / EVENTS_A_SECOND
         time.sleep(max(0.0, due - time.perf_counter()))
-        targets = targets.copy()
-        targets[0] = wild_path(start[held[0]], diameter, event / EVENTS_A_SECOND)
-        posted.append((event + 2, time.perf_counter(), targets[0]))
-        worker.post(_anchors(held, targets, event + 2, dragging=True))
-    released = targets.copy()
-    worker.post(_anchors(held, released, posted[-1][0] + 1, dragging=False))
+        targets = hand.at(event / EVENTS_A_SECOND)
+        posted.append((event + 2, time.perf_counter(), targets[hand.held]))
+        worker.post(_anchors(hand.vertices, targets, event + 2, dragging=True))
+    worker.post(_anchors(hand.vertices, targets, posted[-1][0] + 1, dragging=False))
     _await(news, lambda: seen[-1][1].anchor_serial > posted[-1][0] and seen[-1][1].phase == "finished", 60)
     maps = list(seen)
     worker.close()
 
     latencies = _latencies(posted, maps)
+    moved = hand.vertices[hand.held]
     lags = [
-        np.linalg.norm(_target_at(posted, when) - snapshot.positions[held[0]]) / diameter
+        np.linalg.norm(_target_at(posted, when) - snapshot.positions[moved], axis=1).max() / diameter
         for when, snapshot in maps
         if begin < when < begin + seconds
     ]
     final = maps[-1][1]
     return {
-        "triangles": mesh.simplex_count,
+        "simplices": mesh.simplex_count,
         "maps": len(maps),
         "largest_inverted": max(int((determinants(elements, s.positions) <= 0).sum()) for _, s in maps),
         "largest_inverted_reported": max(s.row.inverted for _, s in maps),
@@ -107,7 +101,7 @@ def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> di
         "max_ms": 1e3 * max(latencies),
         "median_lag": float(np.median(lags)),
         "p95_lag": float(np.percentile(lags, 95)),
-        "final_error": float(np.linalg.norm(final.positions[held[0]] - released[0])) / diameter,
+        "final_error": float(np.linalg.norm(final.positions[hand.vertices] - targets, axis=1).max()) / diameter,
         "converged": float(final.status.name == "CONVERGED"),
         "failures": len(failures),
     }
@@ -115,12 +109,6 @@ def drag(path: str, *, with_fields: bool = True, seconds: float = SECONDS) -> di
 
 def _anchors(vertices: np.ndarray, targets: np.ndarray, serial: int, *, dragging: bool) -> SetAnchors:
     return SetAnchors(vertices, targets, np.full(len(vertices), np.inf), serial, dragging)
-
-
-def _corners(positions: np.ndarray) -> np.ndarray:
-    """Four extreme vertices; the first is the one that is dragged."""
-    directions = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])
-    return np.unique((positions @ directions.T).argmax(axis=0))
 
 
 def _latencies(posted: list[tuple[int, float, np.ndarray]], maps: list[tuple[float, Snapshot]]) -> list[float]:
@@ -144,16 +132,21 @@ def _await(news: threading.Condition, holds: object, seconds: float) -> None:
             raise TimeoutError("the engine did not answer")
 
 
-def main(sizes: list[int]) -> None:
-    """Print a table, one line a size."""
+def main(arguments: list[str]) -> None:
+    """Print a table, one line a size and hand."""
+    solid = "--bar" in arguments
+    sizes = [int(a) for a in arguments if a != "--bar"] or ([3000, 12_000] if solid else [2500, 25_000, 100_000])
+    hands: tuple[HandMaker, ...] = (corner_hand, end_hand) if solid else (corner_hand,)
+    sample = "bar-3d" if solid else "gingerbread"
     with tempfile.TemporaryDirectory() as folder:
         for size in sizes:
-            mesh = make_sample("gingerbread", triangles=size)
-            path = Path(folder) / f"gingerbread_{size}.npz"
+            mesh = make_sample(sample, size)
+            path = Path(folder) / f"{sample}_{size}.npz"
             np.savez(path, V=mesh.vertices, S=mesh.simplices)
-            result = drag(str(path))
-            print("  ".join(f"{k} {v:.4g}" for k, v in result.items()), flush=True)
+            for hand in hands:
+                result = drag(str(path), hand)
+                print(hand.__name__, "  ".join(f"{k} {v:.4g}" for k, v in result.items()), flush=True)
 
 
 if __name__ == "__main__":
-    main([int(a) for a in sys.argv[1:]] or [2500, 25_000, 100_000])
+    main(sys.argv[1:])
