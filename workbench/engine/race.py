@@ -24,6 +24,8 @@ __all__ = ["PRESETS", "Contestant", "Frame", "Limits", "Marker", "Preset", "Race
 
 SLICE = 0.05
 """Seconds of a turn."""
+LEAD = 0.15
+"""Seconds that a contestant may be ahead of whoever has spent least and still have its turn out of turn."""
 STORE_BYTES = 256 * 2**20
 """Of the maps that are kept, of all contestants together."""
 
@@ -79,6 +81,7 @@ class Race:
             )
             for contestant in contestants
         )
+        self._last_turns: dict[Racer, float] = {}
 
     def racer(self, label: str) -> Racer:
         """The contestant of that label. Raises `KeyError`."""
@@ -96,20 +99,35 @@ class Race:
 
     # ------------------------------------------------------------------------------------------- turns
 
-    def advance(self, slice_seconds: float = SLICE, interrupt: Interrupt = never) -> Racer | None:
+    def advance(
+        self, slice_seconds: float = SLICE, interrupt: Interrupt = never, patience: float = math.inf
+    ) -> Racer | None:
         """A turn for the running contestant that has spent the least; at least one step, until its slice is over.
 
         Returns the contestant, None where the race is over. `interrupt` ends the turn within a trial of a line search.
+        Whoever had no turn for `patience` seconds on the clock comes first, unless it is ahead by more than `LEAD`: so
+        long steps of several contestants do not follow on each other, and nobody gains more than one slice by it.
         """
-        running = [racer for racer in self.racers if racer.is_running]
-        if not running:
+        racer = self._next(patience)
+        if racer is None:
             return None
-        racer = min(running, key=lambda r: r.seconds)
         end = racer.seconds + slice_seconds
         racer.step(interrupt)
         while racer.is_running and racer.seconds < end and not interrupt():
             racer.step(interrupt)
+        self._last_turns[racer] = time.perf_counter()
         return racer
+
+    def _next(self, patience: float) -> Racer | None:
+        """Whose turn it is."""
+        running = [racer for racer in self.racers if racer.is_running]
+        if not running:
+            return None
+        least = min(running, key=lambda racer: racer.seconds)
+        waiting = [racer for racer in running if racer.seconds <= least.seconds + LEAD]
+        longest = min(waiting, key=lambda racer: self._last_turns.get(racer, 0.0))
+        waits = time.perf_counter() - self._last_turns.get(longest, 0.0) > patience
+        return longest if waits else least
 
     def step_all(self, interrupt: Interrupt = never) -> None:
         """One step of every running contestant."""

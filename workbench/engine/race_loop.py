@@ -30,8 +30,10 @@ from workbench.engine.race_messages import (
 from workbench.engine.racer import Terms
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
 
-TURN = 0.02
+TURN = 0.01
 """Seconds of a turn: between turns commands are read and maps go out."""
+PATIENCE = 0.06
+"""Seconds after which whoever had no turn comes before those that have spent less."""
 PUBLISH_INTERVAL = 0.07
 """Seconds between two maps of one contestant, on the average."""
 BURST = 2 * PUBLISH_INTERVAL
@@ -156,7 +158,7 @@ class RaceLoop:
             race.step_all(self._pending)
             self._publish_all()
         else:
-            racer = race.advance(TURN, self._pending)
+            racer = race.advance(TURN, self._pending, PATIENCE)
             if racer is not None:
                 index = race.racers.index(racer)
                 if not racer.is_running or time.perf_counter() >= self._told[index].due:
