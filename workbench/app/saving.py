@@ -13,7 +13,10 @@ from workbench.core.errors import WorkbenchError
 from workbench.engine.messages import Loaded, Snapshot
 from workbench.session.session import Session
 
-FILTERS = "OBJ, vertex order and faces kept (*.obj);;NumPy case (*.npz);;VTK with fields (*.vtu);;All files (*)"
+FILTERS = (
+    "OBJ, vertex order and faces kept (*.obj);;NumPy case (*.npz);;VTK with fields (*.vtu);;MEDIT (*.mesh);;Gmsh (*.msh);;"
+    "CSV of the measures (*.csv);;All files (*)"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,13 +77,10 @@ class Saver(QObject):
 
 def write(request: SaveRequest) -> None:
     """Write a map as the command line does. Raises `WorkbenchError`."""
-    from workbench.core.measure import Measure
-    from workbench.core.quality import simplex_measures_of
     from workbench.io.opening import open_source
     from workbench.io.write import write_map
 
     loaded, session = request.loaded, request.session
-    needs_fields = request.path.suffix.lower() in (".vtu", ".csv")
     opened = open_source(session.source, kind=loaded.kind, fixes=session.fixes)
     if opened.mesh.vertex_count != loaded.mesh.vertex_count:
         raise WorkbenchError(f"{session.source} was changed since it was opened; open it again, or save as npz.")
@@ -90,7 +90,6 @@ def write(request: SaveRequest) -> None:
         opened.mesh,
         request.snapshot.positions,
         opened.kind,
-        fields=simplex_measures_of(loaded.mesh, request.snapshot.positions, (Measure("det"),)) if needs_fields else None,
         anchor_vertices=request.anchor_vertices,
         anchor_targets=request.anchor_targets,
     )

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from workbench.cli.carrying import add_carry_options, carried_report, check_carry_options, read_carried, write_carried
 from workbench.cli.interrupt import InterruptFlag
 from workbench.cli.options import add_solve_options
 from workbench.cli.output import check_places, json_text, number, teller
@@ -16,6 +17,7 @@ from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
+    from workbench.cli.carrying import Carried
     from workbench.cli.preparation import Prepared
     from workbench.core.run import HistoryRow, RunResult
     from workbench.core.state import State
@@ -28,8 +30,11 @@ PROGRESS_INTERVAL = 0.5
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     parser = commands.add_parser(name, help="map a mesh and write the map")
     parser.add_argument("file", metavar="FILE", help="mesh file, case (.npz), or sample:ID")
-    parser.add_argument("--out", required=True, metavar="OUT", help="the map: .obj, .npz, .vtu, or .csv of its measures")
+    parser.add_argument(
+        "--out", required=True, metavar="OUT", help="the map: .obj, .npz, .vtu, .mesh, .msh, or .csv of its measures"
+    )
     add_solve_options(parser)
+    add_carry_options(parser)
     parser.add_argument("--report", metavar="REPORT.json", help="one JSON object about the run")
     parser.add_argument("--history", metavar="HISTORY.csv", help="a row an iteration")
     parser.set_defaults(run=run)
@@ -42,12 +47,13 @@ def run(options: argparse.Namespace) -> int:
     from workbench.cli.preparation import prepare
 
     prepared = prepare(options)
+    carried = read_carried(options, prepared.opened)
     tell = teller(options.quiet)
-    for note in prepared.opened.notes:
+    for note in (*prepared.opened.notes, *((carried.surface.note,) if carried and carried.surface.note else ())):
         tell(note)
     with InterruptFlag() as interrupt:
         result, fault = _solve(prepared, options, interrupt, tell)
-        report = _write(prepared, options, result, fault)
+        report = _write(prepared, carried, options, result, fault)
     if not options.quiet:
         print(_summary(report, options.out))
     if report["status"] == "FAILED" or result.state.status.is_failure:
@@ -62,7 +68,8 @@ def _check_outputs(options: argparse.Namespace) -> None:
     ending = Path(options.out).suffix.lower()
     if ending not in WRITABLE:
         raise WorkbenchError(f"{options.out}: maps are written as {', '.join(WRITABLE)}; choose one of these endings.")
-    check_places(path for path in (options.out, options.report, options.history) if path)
+    check_carry_options(options)
+    check_places(path for path in (options.out, options.carried_out, options.report, options.history) if path)
 
 
 def _solve(
@@ -109,7 +116,9 @@ def _solve(
     return result, ""
 
 
-def _write(prepared: Prepared, options: argparse.Namespace, result: RunResult, fault: str) -> dict[str, Any]:
+def _write(
+    prepared: Prepared, carried: Carried | None, options: argparse.Namespace, result: RunResult, fault: str
+) -> dict[str, Any]:
     from workbench.cli.report import build_report, history_text
     from workbench.io.atomic import write_text
     from workbench.io.write import write_map
@@ -121,26 +130,21 @@ def _write(prepared: Prepared, options: argparse.Namespace, result: RunResult, f
         opened.mesh,
         result.state.positions,
         opened.kind,
-        fields=_fields(prepared, result) if Path(options.out).suffix.lower() in (".vtu", ".csv") else None,
         anchor_vertices=anchors.vertices,
         anchor_targets=anchors.targets,
     )
     report = build_report(prepared, result)
     if fault:
         report |= {"status": "FAILED", "message": fault}
+    if carried:
+        report["carried"] = carried_report(carried, result.state.positions)
+        if options.carried_out:
+            write_carried(options.carried_out, carried, result.state.positions)
     if options.report:
         write_text(options.report, json_text(report))
     if options.history:
         write_text(options.history, history_text(result.rows))
     return report
-
-
-def _fields(prepared: Prepared, result: RunResult) -> dict[str, Any]:
-    """Every registered distortion on each simplex of the last map, and its determinant."""
-    from workbench.core.measure import Measure
-    from workbench.core.quality import simplex_measures_of
-
-    return dict(simplex_measures_of(prepared.problem.mesh, result.state.positions, (Measure("det"),)))
 
 
 def _summary(report: dict[str, Any], out: str) -> str:

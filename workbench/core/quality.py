@@ -9,9 +9,10 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
-from workbench.core.jacobians import build_elements, determinants, signed_singular_values
+from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
+from workbench.core.surface_jacobians import surface_singular_values
 
 HISTOGRAM_BINS = 64
 DEGENERATE = 1e-12
@@ -34,21 +35,45 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
 
 def simplex_measures_of(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
     """What is measured of each simplex of a map: every registered distortion by id, and `others` by theirs, each (m,)."""
+    sigma = SingularValues(_singular_values(build_elements(mesh), positions))
+    return _values_of(sigma, others)
+
+
+def _values_of(sigma: SingularValues, others: Iterable[Measure] = ()) -> dict[str, Floats]:
     from workbench.core.registry import registry
 
-    sigma = SingularValues(signed_singular_values(build_elements(mesh), positions))
     measures = [*(Measure(id) for id in sorted(registry().distortions)), *others]
     return {measure.id: measure.prepare(sigma.dimension)(sigma) for measure in measures}
 
 
 def simplex_table(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
-    """Columns of a table of simplices: sigma_1 .. sigma_n (signed), det, each measure, area or volume of the source."""
+    """Columns of a table of simplices, each (m,): sigma_1 .. sigma_n (signed), det, inverted (0 or 1), each measure, and the
+    area or volume in the source. Of a surface in space, which has no orientation, det is the factor of area."""
     elements = build_elements(mesh)
-    sigma = signed_singular_values(elements, positions)
+    sigma = _singular_values(elements, positions)
     columns = {f"sigma_{i + 1}": sigma[:, i] for i in range(elements.dimension)}
-    columns["det"] = determinants(elements, positions)
-    columns |= simplex_measures_of(mesh, positions, others)
+    is_surface = positions.shape[1] > elements.dimension
+    columns["det"] = sigma.prod(axis=1) if is_surface else determinants(elements, positions)
+    columns["inverted"] = np.where(columns["det"] > 0, 0.0, 1.0)
+    columns |= _values_of(SingularValues(sigma), others)
     return columns | {"area" if elements.dimension == 2 else "volume": elements.rest_measures}
+
+
+def _singular_values(elements: Elements, positions: Floats) -> Floats:
+    of_surface = positions.shape[1] > elements.dimension
+    return surface_singular_values(elements, positions) if of_surface else signed_singular_values(elements, positions)
+
+
+def measure_surface(mesh: Mesh, positions: Floats) -> dict[str, Any]:
+    """Measures of a map of a surface into space, from `mesh` to `positions` (n, 3), as `measure_map` has those of others."""
+    elements = build_elements(mesh)
+    sigma = surface_singular_values(elements, positions)
+    values = _values_of(SingularValues(sigma))
+    return {
+        "measures": {id: statistics(of_each, elements.rest_measures) for id, of_each in values.items()},
+        "degenerate": int(np.count_nonzero(sigma[:, 1] <= DEGENERATE * sigma[:, 0])),
+        "area": {"source": float(elements.rest_measures.sum()), "target": float(elements.rest_measures @ sigma.prod(axis=1))},
+    }
 
 
 def measure_map(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Any]:

@@ -7,6 +7,7 @@ import io
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 from typing import Any
@@ -19,12 +20,15 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.plane_frame import into_plane_of
+from workbench.core.quality import simplex_table
 from workbench.io.atomic import replacing, write_text
 from workbench.io.foreign import silenced
 from workbench.io.polygons import unfan
 
-WRITABLE = (".obj", ".npz", ".vtu", ".csv")
-"""Endings of the files that can be written."""
+WRITABLE = (".obj", ".npz", ".vtu", ".mesh", ".msh", ".csv")
+"""Endings of the files that a map can be written to."""
+SURFACE_ENDINGS = (".obj", ".npz", ".vtu", ".csv")
+"""Endings of the files that a carried surface can be written to."""
 
 
 def write_map(
@@ -42,7 +46,8 @@ def write_map(
 
     OBJ: for parameterize the vertices and faces of the file as they were, polygons too, and the map as `vt`; for
     plane and volume the map as `v` (in the plane of the file where that was a plane in space). npz: `V S X anchors
-    targets`. VTU: the map, with `fields` on the simplices. CSV: a row a simplex, a column a field.
+    targets`. VTU: the map, with `fields` on the simplices. MEDIT and Gmsh (2.2, binary): the map alone. CSV: a row a
+    simplex, a column a field.
     Numbers have 17 significant digits: they read back to the same values.
 
     Parameters
@@ -50,20 +55,22 @@ def write_map(
     file_mesh : Mesh               as read
     source_mesh : Mesh             as solved on, after fixes: where these dropped simplices, what was kept is written
     positions : (n, d) float64     of the vertices of `source_mesh`
-    fields : name -> (m,)          numbers a simplex, for VTU and CSV
+    fields : name -> (m,)          numbers a simplex, for VTU and CSV; where none are given, those of `simplex_table`
     anchor_vertices, anchor_targets : (k,) int64, (k, d) float64     for npz
 
     Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
     """
     ending = Path(path).suffix.lower()
     positions = np.asarray(positions, dtype=np.float64)
+    if fields is None and ending in (".vtu", ".csv"):
+        fields = simplex_table(source_mesh, positions)
     columns = {name: np.asarray(values, dtype=np.float64) for name, values in (fields or {}).items()}
     if ending == ".obj":
         write_text(path, obj_text(file_mesh, source_mesh, positions, kind))
     elif ending == ".npz":
         _write_npz(path, source_mesh, positions, anchor_vertices, anchor_targets)
-    elif ending == ".vtu":
-        _write_vtu(path, source_mesh, positions, columns)
+    elif ending in (".vtu", ".mesh", ".msh"):
+        _write_by_meshio(path, source_mesh, positions, columns)
     elif ending == ".csv":
         write_text(path, simplex_table_text(columns))
     else:
@@ -82,6 +89,25 @@ def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
         return
     polygons = unfan(mesh.simplices, mesh.polygons) if mesh.dimension == 2 else mesh.simplices.tolist()
     write_text(path, vertices + _faces(polygons, str))
+
+
+def write_surface(path: str | os.PathLike[str], surface: Mesh, positions: Floats) -> None:
+    """Writes a surface in space where a map takes its vertices, `positions` (n, 3), in the format of the ending of `path`.
+
+    OBJ keeps faces and texture coordinates; npz has the source as `V`; VTU and CSV have the measures of the surface's
+    own map. Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in SURFACE_ENDINGS:
+        raise WorkbenchError(f"{path}: surfaces are written as {', '.join(SURFACE_ENDINGS)}; choose one of these endings.")
+    if ending == ".obj":
+        write_mesh(path, replace(surface, vertices=positions))
+    elif ending == ".npz":
+        write_case(path, {"V": surface.vertices, "S": surface.simplices, "X": positions})
+    elif ending == ".vtu":
+        _write_by_meshio(path, surface, positions, simplex_table(surface, positions))
+    else:
+        write_text(path, simplex_table_text(simplex_table(surface, positions)))
 
 
 def write_case(path: str | os.PathLike[str], arrays: Mapping[str, ArrayLike]) -> None:
@@ -136,18 +162,20 @@ def _write_npz(
     write_case(path, {"V": mesh.vertices, "S": mesh.simplices, "X": positions, "anchors": anchors, "targets": targets})
 
 
-def _write_vtu(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
+def _write_by_meshio(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
+    ending = Path(path).suffix.lower()
     cells = [("triangle" if mesh.dimension == 2 else "tetra", mesh.simplices)]
     with replacing(path) as part, silenced():
         import meshio
 
-        content = meshio.Mesh(
-            _in_space(positions),
-            cells,
-            point_data={"source": _in_space(mesh.vertices)},
-            cell_data={name: [values] for name, values in columns.items()},
-        )
-        meshio.vtu.write(str(part), content)
+        if ending == ".vtu":
+            point_data = {"source": _in_space(mesh.vertices)}
+            cell_data = {name: [values] for name, values in columns.items()}
+            meshio.vtu.write(str(part), meshio.Mesh(_in_space(positions), cells, point_data, cell_data))
+        elif ending == ".mesh":
+            meshio.medit.write(str(part), meshio.Mesh(_in_space(positions), cells))
+        else:
+            meshio.gmsh.write(str(part), meshio.Mesh(_in_space(positions), cells), "2.2", binary=True)
 
 
 def simplex_table_text(columns: Mapping[str, ArrayLike]) -> str:
