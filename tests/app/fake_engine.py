@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from itertools import permutations
 
 import numpy as np
 
@@ -44,8 +45,28 @@ def bumpy_mesh(columns: int = 21, rows: int = 13) -> Mesh:
     return Mesh(np.c_[x, y, 0.3 * np.sin(3 * x) * np.cos(2 * y)], flat.simplices, name="bumpy grid")
 
 
+def solid_mesh(cells: tuple[int, int, int] = (6, 3, 3)) -> Mesh:
+    """A box of cells, each of six tetrahedra round its diagonal."""
+    x, y, z = np.meshgrid(*(np.arange(count + 1) for count in cells), indexing="ij")
+    index = np.arange(x.size).reshape(x.shape)
+    inner = [slice(0, count) for count in cells]
+
+    def corner(step: tuple[int, ...]) -> np.ndarray:
+        return index[tuple(slice(s.start + k, s.stop + k) for s, k in zip(inner, step, strict=True))].ravel()
+
+    tets = []
+    for order in permutations(range(3)):
+        steps = np.zeros((4, 3), int)
+        for row, axis in enumerate(order, 1):
+            steps[row:, axis] = 1
+        tet = [corner(tuple(step)) for step in steps.tolist()]
+        is_even = np.linalg.det(steps[1:]) > 0
+        tets.append(np.stack(tet if is_even else [tet[0], tet[2], tet[1], tet[3]], axis=1))
+    return Mesh(np.c_[x.ravel(), y.ravel(), z.ravel()] / 3.0, np.concatenate(tets), name="solid")
+
+
 class FakeWorker:
-    """Moves vertices towards anchors by a smooth blend; sources: grid, bumpy, closed, tets, raises."""
+    """Moves vertices towards anchors by a smooth blend; sources: grid, bumpy, closed, solid, raises."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
@@ -116,17 +137,12 @@ class FakeWorker:
             self._tell(Failure(command.generation, "The plugin raised ValueError.", "Traceback ..."))
             return
         cut = np.array([[0, 1], [1, 2]]) if "closed" in source else np.empty((0, 2), np.int64)
-        if "tets" in source:
-            assert not command.volumes
-            sentence = "tets holds tetrahedra: use the command line."
-            self._tell(Refused(command.generation, "Load", sentence, (), ("1 tetrahedron",)))
-            return
-        mesh = grid_mesh() if "grid" in source else bumpy_mesh()
+        mesh = grid_mesh() if "grid" in source else solid_mesh() if "solid" in source else bumpy_mesh()
         self._mesh, self._generation = mesh, command.generation
-        self._start = mesh.vertices[:, :2].copy()
+        self._start = mesh.vertices[:, : mesh.dimension].copy()
         self._positions, self._iteration, self._running = self._start.copy(), 0, False
-        kind = "plane" if mesh.vertices.shape[1] == 2 else "parameterize"
-        lines = (f"{mesh.vertex_count} vertices, {mesh.simplex_count} triangles", "1 component")
+        kind = "volume" if mesh.dimension == 3 else "plane" if mesh.vertices.shape[1] == 2 else "parameterize"
+        lines = (f"{mesh.vertex_count} vertices, {mesh.simplex_count} {mesh.simplex_noun(2)}", "1 component")
         self._tell(Loaded(command.generation, mesh, kind, lines, cut, source, command.fixes))
         self._publish()
 
@@ -151,13 +167,8 @@ class FakeWorker:
         assert self._mesh is not None
         self._number += is_news
         self._iteration += is_news
-        corners = self._positions[self._mesh.simplices]
-        rest = self._start[self._mesh.simplices]
-        u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        p, q = rest[:, 1] - rest[:, 0], rest[:, 2] - rest[:, 0]
-        area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
-        stretch = area / (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0])
-        sigma = np.sqrt(np.abs(stretch))
+        area, rest = (_signed_measures(x[self._mesh.simplices]) for x in (self._positions, self._start))
+        sigma = np.abs(area / rest) ** (1 / self._mesh.dimension)
         inverted = area <= 0
         energy = float((sigma**2 + 1 / np.maximum(sigma, 1e-3) ** 2).mean())
         seconds, norm = 0.01 * self._iteration, 1 / self._iteration
@@ -177,8 +188,13 @@ class FakeWorker:
                 limiting_simplex=5 if self._dragging else -1,
                 seconds_published=time.perf_counter(),
                 rows=(row,) if is_news else (),
-                singular_values=np.c_[sigma, np.copysign(sigma, area)].astype(np.float32)
+                singular_values=np.c_[(sigma,) * (self._mesh.dimension - 1) + (np.copysign(sigma, area),)].astype(np.float32)
                 if self._watch.singular_values
                 else None,
             )
         )
+
+
+def _signed_measures(corners: np.ndarray) -> np.ndarray:
+    """Determinants (m,) of the edges of simplices (m, d+1, d) from their first corners."""
+    return np.linalg.det(corners[:, 1:] - corners[:, :1])

@@ -190,17 +190,6 @@ def test_a_refused_file_leaves_the_present_map_alive(window: MainWindow, qtbot: 
     qtbot.waitUntil(lambda: window.document.snapshot.number > before)
 
 
-def test_volumes_are_refused_with_a_sentence_and_the_mesh_before_stays(window: MainWindow, qtbot: QtBot) -> None:
-    before = window.document.mesh
-    window.open("tets")
-    qtbot.waitUntil(window.error_bar.isVisible)
-    assert "command line" in window.error_bar.sentence.text()
-    assert window.document.mesh is before
-    number = window.document.snapshot.number
-    window.document.step()
-    qtbot.waitUntil(lambda: window.document.snapshot.number > number)
-
-
 def test_failures_show_their_traceback_in_the_details(window: MainWindow, qtbot: QtBot) -> None:
     window.open("raises")
     qtbot.waitUntil(window.error_bar.isVisible)
@@ -291,12 +280,11 @@ def test_only_views_that_are_to_be_seen_are_drawn(window: MainWindow, qtbot: QtB
     assert not drawn
 
 
-def test_the_menu_names_the_samples_that_can_be_shown(window: MainWindow) -> None:
+def test_the_menu_names_the_samples(window: MainWindow) -> None:
     menu = QMenu(window)
     fill_samples(window, menu)
     names = [action.text() for action in menu.actions()]
-    assert "Gingerbread man" in names
-    assert "Ball" not in names
+    assert {"Gingerbread man", "Ball"} <= set(names)
 
 
 def test_a_step_that_lasts_is_named_with_the_way_out(

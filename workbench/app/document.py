@@ -131,7 +131,7 @@ class Document(QObject):
         self._runs_after_open = run
         self._bridge.post(self._problem(self._attempt))
         self._bridge.post(self._solver(self._attempt))
-        self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes, volumes=False))
+        self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
         self.opening.emit(source)
 
     def open_sample(self, id: str, *, run: bool = True) -> None:
@@ -369,7 +369,7 @@ class Document(QObject):
 
     def _send_anchors(self, dragging: bool, at: float | None = None) -> None:
         self.anchor_serial += 1
-        dimension = self.snapshot.positions.shape[1] if self.snapshot is not None else 2
+        dimension = 3 if self.kind == "volume" else 2
         vertices = self.anchors.vertices
         if at is not None:
             self.drag_sent.emit(self.anchor_serial, at)

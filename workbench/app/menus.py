@@ -95,9 +95,11 @@ def fill_samples(window: MainWindow, menu: QMenu) -> None:
     from workbench.core.samples import sample_ids, sample_kind
 
     menu.clear()
+    kind = ""
     for id in sample_ids():
-        if sample_kind(id) == "volume":
-            continue
+        if kind and kind != sample_kind(id):
+            menu.addSeparator()
+        kind = sample_kind(id)
         action = menu.addAction(source_name(f"sample:{id}"))
         action.triggered.connect(lambda _=False, i=id: window.document.open_sample(i))
 

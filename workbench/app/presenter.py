@@ -13,6 +13,7 @@ from workbench.app.document import Document
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.brush_mark import BrushedParts
+from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
 from workbench.app.views.geometry import DisplayFrame, Geometry
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
@@ -50,6 +51,7 @@ class Presenter(QObject):
         self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
         self._brushable: BrushedParts | None = None
+        self._faces: DrawnFaces | None = None
         self._hovered = -1
         self._fits_next = False
         self._late_marks = QTimer(self)
@@ -84,8 +86,9 @@ class Presenter(QObject):
         assert loaded is not None
         self.clear()
         self._brush.clear()
-        self._brushable = BrushedParts(loaded.mesh.simplices)
-        geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices)
+        self._faces = drawn_faces(loaded.mesh.simplices, loaded.neighbours)
+        self._brushable = BrushedParts(self._faces)
+        geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices, self._faces)
         surface = self.source.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
         self._colouring.apply(self._panes[0])
@@ -94,7 +97,7 @@ class Presenter(QObject):
         """The first map of a mesh: its frame is kept, so that dragging does not move the picture."""
         loaded = self._document.loaded
         assert loaded is not None
-        geometry = Geometry(positions, loaded.mesh.simplices)
+        geometry = Geometry(positions, loaded.mesh.simplices, self._faces)
         self._target_geometry = geometry
         surface = self.target.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
@@ -214,10 +217,10 @@ class Presenter(QObject):
             else:
                 scene.anchor_points = scene.vertex_points
             scene.selected = document.selected
-            if 0 <= self._hovered < len(geometry.points) and not document.is_held:
+            if 0 <= self._hovered < geometry.vertex_count and not document.is_held:
                 scene.hovered = self._hovered
                 scene.hovered_point = geometry.points[self._hovered]
             snapshot = document.snapshot
-            if snapshot is not None and 0 <= snapshot.limiting_simplex < len(geometry.triangles):
-                scene.limiting = geometry.points[geometry.triangles[snapshot.limiting_simplex]]
-                scene.limiting_label = f"triangle {snapshot.limiting_simplex} limits the step"
+            if snapshot is not None and 0 <= snapshot.limiting_simplex < mesh.simplex_count:
+                scene.limiting = geometry.points[mesh.simplices[snapshot.limiting_simplex]]
+                scene.limiting_label = f"{mesh.simplex_noun()} {snapshot.limiting_simplex} limits the step"

@@ -145,7 +145,7 @@ class RefineDialog(QDialog):
         self.levels.setMaximum(most)
         levels = self.levels.value()
         after = refined_count(self._mesh, scheme, levels)
-        noun = "triangles" if self._mesh.dimension == 2 else "tetrahedra"
+        noun = self._mesh.simplex_noun(2)
         slow = "; slow to draw and to solve" if after > SLOW_TO_DRAW else ""
         self.count.setText(f"{counted(self._mesh.simplex_count)} → {counted(after)} {noun}{slow}")
         if self._own_name:

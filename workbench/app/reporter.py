@@ -137,7 +137,8 @@ class Reporter(QObject):
         name = source_name(source)
         window.setWindowTitle(f"{name} – Distortion Workbench")
         mesh = loaded.mesh
-        window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {counted(mesh.simplex_count)} triangles")
+        simplices = f"{counted(mesh.simplex_count)} {mesh.simplex_noun(mesh.simplex_count)}"
+        window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {simplices}")
         window.source.caption.setToolTip("\n".join(loaded.lines))
         window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
         surface = window.source.view.surface
@@ -169,10 +170,10 @@ class Reporter(QObject):
         snapshot = self._document.snapshot
         if snapshot is None:
             return
-        if snapshot.limiting_simplex >= 0 and snapshot.phase in ("running", "dragging"):
-            self._window.status.say(
-                f"An anchor lags: triangle {snapshot.limiting_simplex} would invert; the map follows as far as it can."
-            )
+        mesh = self._document.mesh
+        if mesh is not None and snapshot.limiting_simplex >= 0 and snapshot.phase in ("running", "dragging"):
+            which = f"{mesh.simplex_noun()} {snapshot.limiting_simplex}"
+            self._window.status.say(f"An anchor lags: {which} would invert; the map follows as far as it can.")
         elif snapshot.phase == "finished":
             self._window.status.say(in_window_words(snapshot.status.value))
         elif snapshot.phase == "dragging":

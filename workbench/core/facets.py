@@ -88,6 +88,17 @@ def facet_table(simplices: Integers) -> FacetTable:
     )
 
 
+def neighbouring_simplices(table: FacetTable) -> Integers:
+    """Simplex on the other side of each facet: (m, n+1) int64, column i opposite corner i, -1 at the boundary.
+
+    Where more than two simplices meet at a facet, each has one of the others.
+    """
+    found = np.full(len(table.facets), -1, dtype=np.int64)
+    one, other = table.pairs.T
+    found[one], found[other] = other // table.simplex_size, one // table.simplex_size
+    return found.reshape(-1, table.simplex_size)
+
+
 def simplex_components(table: FacetTable, simplex_count: int) -> tuple[int, Integers]:
     """Number of face-connected components and the label of each simplex, (m,) int64."""
     count, labels = _components(simplex_count, table.pair_simplices)

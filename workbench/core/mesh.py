@@ -85,6 +85,11 @@ class Mesh:
         """Dimension of the simplices: 2 for triangles, 3 for tetrahedra."""
         return int(self.simplices.shape[1]) - 1
 
+    def simplex_noun(self, count: int = 1) -> str:
+        """What `count` of its simplices are called."""
+        one, many = ("triangle", "triangles") if self.dimension == 2 else ("tetrahedron", "tetrahedra")
+        return one if count == 1 else many
+
     @property
     def vertex_count(self) -> int:
         return len(self.vertices)

@@ -14,6 +14,7 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
+from workbench.core.facets import facet_table, neighbouring_simplices
 from workbench.core.guarded_step import checked, guarded_step
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
@@ -52,8 +53,6 @@ HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
 HAND_LETS_GO = 0.05
 """Seconds after a release in which the last events are answered before the full solver starts."""
-
-NO_VOLUMES = ": volumes are solved from the command line for now (workbench solve FILE --out OUT); open a triangle mesh here."
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,14 +179,10 @@ class EngineLoop:
         self._publish(Dissected(self._generation, self._solver.label, found, found.after.status.value))
 
     def _load(self, command: Load) -> None:
-        from workbench.io.opening import UnsuitableSourceError, open_source
+        from workbench.io.opening import open_source
 
         self._publish(Progress(f"Reading {command.source} …"))
         opened = open_source(command.source, kind=command.kind, fixes=command.fixes, tets=command.tets)
-        if opened.mesh.dimension == 3 and not command.volumes:
-            refusal = UnsuitableSourceError(f"{command.source} holds tetrahedra{NO_VOLUMES}")
-            refusal.lines = opened.lines
-            raise refusal
         # Whatever refuses the mesh (a formula that does not exist in its dimension, say) leaves the old one in force.
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
         problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
@@ -209,6 +204,7 @@ class EngineLoop:
                 fixes=command.fixes,
                 anchor_vertices=opened.anchor_vertices,
                 anchor_targets=opened.anchor_targets,
+                neighbours=neighbouring_simplices(facet_table(opened.mesh.simplices)) if opened.kind == "volume" else None,
             )
         )
         self._make_start(self._reset)

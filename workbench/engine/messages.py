@@ -36,8 +36,7 @@ class Load(Command):
     """Read a mesh and make it the source; the map becomes the start of the current choices.
 
     `source` is a path, or `sample:ID`; `fixes` are applied in their order; `kind` is `auto` or a `Kind`;
-    `generation` is chosen by the sender and comes back in every report that belongs to this mesh; without `volumes`
-    tetrahedra are refused, and what was there before stays.
+    `generation` is chosen by the sender and comes back in every report that belongs to this mesh.
     """
 
     source: str
@@ -45,7 +44,6 @@ class Load(Command):
     kind: str = "auto"
     fixes: tuple[str, ...] = ()
     tets: bool = False
-    volumes: bool = True
 
 
 @dataclass(frozen=True)
@@ -198,6 +196,8 @@ class Loaded(Report):
     `mesh` has two columns of vertices for `plane`; `lines` is the report on load, one sentence a line;
     `cut_edges` (k, 2) are the edges (vertices of `mesh`) that a fix cut open. `anchor_vertices` (k,) are those that
     the file or the sample comes with, `anchor_targets` (k, d) their targets; None: where the start has them.
+    `neighbours` (m, 4) are the tetrahedra beyond each face (see `neighbouring_simplices`), so that whoever draws a volume
+    need not sort its faces; None for triangles.
     """
 
     generation: int
@@ -209,6 +209,7 @@ class Loaded(Report):
     fixes: tuple[str, ...] = ()
     anchor_vertices: Integers | None = None
     anchor_targets: Floats | None = None
+    neighbours: Integers | None = None
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The triangle under the pointer in a view is marked everywhere, while the inspector shows the simplices as points."""
+"""The simplex under the pointer in a view is marked everywhere, while the inspector shows the simplices as points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PAUSE = 40
 
 
 class HoverBrush(QObject):
-    """Brushes one triangle at a time; what was brushed on purpose is left alone."""
+    """Brushes one simplex at a time; what was brushed on purpose is left alone."""
 
     def __init__(self, brush: SimplexBrush, views: Sequence[MeshView], is_wanted: Callable[[], bool]) -> None:
         super().__init__()
@@ -50,5 +50,5 @@ class HoverBrush(QObject):
         if self._under is None or self._brush.origin not in ("", ORIGIN):
             return
         view, pixel = self._under
-        triangle = view.triangle_at(pixel)
-        self._brush.brush([triangle] if triangle >= 0 else [], ORIGIN)
+        simplex = view.simplex_at(pixel)
+        self._brush.brush([simplex] if simplex >= 0 else [], ORIGIN)

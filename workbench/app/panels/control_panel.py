@@ -29,7 +29,7 @@ from workbench.core.registry import Registry
 from workbench.engine.messages import Refused
 from workbench.engine.starts import default_initializer
 
-KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane"}
+KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane", "volume": "Solid to space"}
 
 
 class ControlPanel(QScrollArea):

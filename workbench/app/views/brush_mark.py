@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.theme import BRUSH, BRUSH_CASING
 from workbench.app.views.actors import cells, line_actor, surface_actor
+from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers
 
@@ -27,17 +28,18 @@ class BrushedPart:
 
 
 class BrushedParts:
-    """Finds the outline of any set of triangles of one mesh; the table behind it is made at the first question."""
+    """Finds what is drawn of any set of simplices, and its outline; the table behind it is made at the first question."""
 
-    def __init__(self, triangles: Integers) -> None:
-        self._triangles = triangles
+    def __init__(self, faces: DrawnFaces) -> None:
+        self._faces = faces
+        self._triangles = faces.triangles
 
-    def part(self, rows: Integers) -> BrushedPart:
-        """The set of these rows (k,); those that do not exist are left out.
+    def part(self, simplices: Integers) -> BrushedPart:
+        """The set of these simplices (k,); those that do not exist are left out.
 
         Its outline are the edges that belong to one triangle of the set only: lines inside it would hide its colours.
         """
-        rows = rows[rows < len(self._triangles)]
+        rows = self._faces.rows_of(simplices[simplices < len(self._faces.corners)])
         if not len(rows):
             return BrushedPart(rows, np.empty((0, 2), np.int64))
         edges, edges_of_triangle = self._edge_table

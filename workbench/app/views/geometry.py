@@ -10,6 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray
 
+from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
 from workbench.core.arrays import Floats, Integers
 
 
@@ -41,33 +42,56 @@ class DisplayFrame:
 
 
 class Geometry:
-    """A triangle mesh in single precision.
+    """A mesh in single precision: its vertices, then the points that are made of them, and the triangles between both.
 
     Parameters
     ----------
     positions : (n, 2|3) float64     of the mesh; `frame` is taken from them
-    triangles : (m, 3) int64
+    simplices : (m, 3|4) int64
+    faces : DrawnFaces               what is drawn; the triangles, or the boundary of tetrahedra, where it is not given
     """
 
-    def __init__(self, positions: Floats, triangles: Integers) -> None:
+    def __init__(self, positions: Floats, simplices: Integers, faces: DrawnFaces | None = None) -> None:
         self.frame = DisplayFrame.around(positions)
-        self.triangles = triangles
+        self.simplices = simplices
+        self.vertex_count = len(positions)
         self.points: NDArray[np.float32] = self.frame.to_display(positions).astype(np.float32)
-        self._data = numpy_to_vtk(self.points, deep=0)
         self.vtk_points = vtkPoints()
-        self.vtk_points.SetData(self._data)
-        # VTK refers to this memory and does not own it: the reference here keeps it alive
-        self._connectivity = np.array(triangles, dtype=np.int64).ravel()
         self.vtk_cells = vtkCellArray()
-        self.vtk_cells.SetData(3, numpy_to_vtkIdTypeArray(self._connectivity, deep=0))
+        self.show_faces(faces or drawn_faces(simplices))
 
     @property
     def is_flat(self) -> bool:
         return len(self.frame.centre) == 2
 
+    @property
+    def triangles(self) -> Integers:
+        """(k, 3) int64, rows of `points`"""
+        return self.faces.triangles
+
+    @property
+    def vertices(self) -> NDArray[np.float32]:
+        """(n, 3): where the vertices of the mesh are, without the points that are made of them."""
+        return self.points[: self.vertex_count]
+
+    def show_faces(self, faces: DrawnFaces) -> None:
+        """Draw other triangles. Views that show this geometry must be told (`MeshView.faces_changed`) before they draw."""
+        self.faces = faces
+        made = faces.made
+        vertices = self.vertices
+        self.points = vertices if made is None else np.concatenate([vertices, made.at(vertices)], dtype=np.float32)
+        # VTK refers to this memory and does not own it: the references here keep it alive
+        self._data = numpy_to_vtk(self.points, deep=0)
+        self.vtk_points.SetData(self._data)
+        self._connectivity = np.array(faces.triangles, dtype=np.int64).ravel()
+        self.vtk_cells.SetData(3, numpy_to_vtkIdTypeArray(self._connectivity, deep=0))
+        self.vtk_cells.Modified()
+
     def write(self, positions: Floats) -> None:
         """Take new positions (n, d); views show them at their next `refresh`."""
         columns = positions.shape[1]
-        self.points[:, :columns] = (positions - self.frame.centre) * self.frame.scale
+        self.points[: self.vertex_count, :columns] = (positions - self.frame.centre) * self.frame.scale
+        if self.faces.made is not None:
+            self.points[self.vertex_count :] = self.faces.made.at(self.vertices)
         self._data.Modified()
         self.vtk_points.Modified()

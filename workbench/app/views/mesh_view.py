@@ -84,6 +84,12 @@ class MeshView(QWidget):
         """The geometry was written: what is known of its place on the screen no longer holds."""
         self._version += 1
 
+    def faces_changed(self) -> None:
+        """The geometry draws other triangles now."""
+        if self.surface is not None:
+            self.surface.faces_changed()
+        self.points_changed()
+
     def refresh(self) -> None:
         """Draw at the next turn of the event loop, where the view is to be seen at all."""
         if self.is_drawing and not self._is_closed and self.is_shown():
@@ -152,11 +158,16 @@ class MeshView(QWidget):
         """Vertex meant by a pointer, -1 where there is none near."""
         if self.geometry_shown is None:
             return -1
-        return self._on_screen().vertex_at(pixel, REACH, REACH_INSIDE)
+        point = self._on_screen().vertex_at(pixel, REACH, REACH_INSIDE)
+        return self.geometry_shown.faces.vertex_of(point, self.geometry_shown.vertex_count)
 
     def triangle_at(self, pixel: Pixel) -> int:
-        """Triangle in front under a pointer, -1 where there is none."""
+        """Triangle of the geometry in front under a pointer, -1 where there is none."""
         return -1 if self.geometry_shown is None else self._on_screen().triangle_at(pixel)
+
+    def simplex_at(self, pixel: Pixel) -> int:
+        """Simplex in front under a pointer, -1 where there is none."""
+        return -1 if self.geometry_shown is None else self.geometry_shown.faces.simplex_of(self.triangle_at(pixel))
 
     def is_over_mesh(self, pixel: Pixel) -> bool:
         return self.triangle_at(pixel) >= 0

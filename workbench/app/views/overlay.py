@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,6 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
-    QPolygonF,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QWidget
@@ -126,7 +126,9 @@ class Overlay(QWidget):
         corners = self._view.project(scene.limiting)
         painter.setPen(QPen(LIMITING, 2.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.drawPolygon(QPolygonF([QPointF(*p) for p in corners]))
+        points = [QPointF(*p) for p in corners]
+        for one, other in combinations(points, 2):  # of a tetrahedron all six edges are seen
+            painter.drawLine(one, other)
         # a simplex about to invert is often too thin to be seen: a ring says where it is
         middle = corners.mean(axis=0)
         painter.drawEllipse(QPointF(*middle), 13.0, 13.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
@@ -34,6 +36,13 @@ class ScreenTriangles:
         self._low = corners.min(axis=1)
         self._high = corners.max(axis=1)
 
+    @cached_property
+    def _corners(self) -> Integers:
+        """Points of triangles: of a solid, those inside cannot be meant."""
+        is_corner = np.zeros(len(self.pixels), dtype=bool)
+        is_corner[self.triangles] = True
+        return np.flatnonzero(is_corner)
+
     def triangle_at(self, at: tuple[float, float]) -> int:
         """Triangle in front at a pixel; -1 where the background is. Cost: O(m) comparisons."""
         x, y = at
@@ -55,13 +64,14 @@ class ScreenTriangles:
         return int(near[hit][np.argmax(depth)])
 
     def vertex_at(self, at: tuple[float, float], reach: float, reach_inside: float) -> int:
-        """Vertex meant at a pixel: the nearest corner of the triangle in front, else the nearest vertex.
+        """Point meant at a pixel: the nearest corner of the triangle in front, else the nearest corner of any.
 
         `reach_inside` is the reach in pixels over the mesh, `reach` over the background.
         """
         triangle = self.triangle_at(at)
         if triangle < 0:
-            return nearest_pixel(self.pixels, at, reach)
+            row = nearest_pixel(self.pixels[self._corners], at, reach)
+            return int(self._corners[row]) if row >= 0 else -1
         corners = self.triangles[triangle]
         row = nearest_pixel(self.pixels[corners], at, reach_inside)
         return int(corners[row]) if row >= 0 else -1

@@ -1,4 +1,4 @@
-"""The actors of one view: triangles with a colour each, inverted ones outlined, cut edges, brushed ones marked."""
+"""The actors of one view: triangles in the colour of their simplex, inverted ones outlined, cut edges, brushed ones marked."""
 
 from __future__ import annotations
 
@@ -16,10 +16,13 @@ from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import lookup_table, single_colour
+from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
 from workbench.core.arrays import Booleans, Integers
 
+THROUGH = 2e4
+"""Nearer to the eye than all that is drawn otherwise: inverted tetrahedra are seen through those in front of them."""
 EDGES_UP_TO = 12_000
 """Triangles up to which their edges are drawn unasked."""
 
@@ -27,19 +30,17 @@ EDGES_UP_TO = 12_000
 class Surface:
     """A `Geometry` with colours, in place; add `actors` to a renderer once.
 
-    Colours come from one number a triangle through a table; NaN marks an inverted triangle.
+    Colours come from one number a simplex through a table; NaN marks an inverted one.
     """
 
     def __init__(self, geometry: Geometry, theme: Theme, *, edges: bool | None = None) -> None:
         self.geometry = geometry
         self._theme = theme
-        self._values: NDArray[np.float32] = np.zeros(len(geometry.triangles), np.float32)
-        self._scalars = numpy_to_vtk(self._values, deep=0)
-        self._scalars.SetName("colour")
         self._polydata = vtkPolyData()
         self._polydata.SetPoints(geometry.vtk_points)
         self._polydata.SetPolys(geometry.vtk_cells)
-        self._polydata.GetCellData().SetScalars(self._scalars)
+        self._make_scalars()
+        self._latest: tuple[NDArray[Any] | None, Booleans] | None = None
         self._texture_points: NDArray[np.float32] | None = None
         self._texture_data: Any = None
         self._pattern: Pattern | None = None
@@ -50,8 +51,9 @@ class Surface:
         self._actor: Any = actor_of(self._mapper)
         self._inverted = vtkPolyData()
         self._inverted.SetPoints(geometry.vtk_points)
-        self._inverted_actor = _inverted_actor(self._inverted)
-        self._inverted_rows: Integers = np.empty(0, np.int64)
+        is_solid = geometry.simplices.shape[1] == 4
+        self._inverted_actor = _inverted_actor(self._inverted, nearer=THROUGH if is_solid else 6.0)
+        self._inverted_shown: tuple[DrawnFaces, Integers] = (geometry.faces, np.empty(0, np.int64))
         self._cut = vtkPolyData()
         self._cut.SetPoints(geometry.vtk_points)
         self._cut_actor = line_actor(self._cut, CUT, 3.0, nearer=12.0)
@@ -59,6 +61,21 @@ class Surface:
         self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors)
         self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
         self.show_plain()
+
+    def _make_scalars(self) -> None:
+        """One number a triangle, in memory that VTK reads."""
+        self._values: NDArray[np.float32] = np.zeros(len(self.geometry.triangles), np.float32)
+        self._scalars = numpy_to_vtk(self._values, deep=0)
+        self._scalars.SetName("colour")
+        self._polydata.GetCellData().SetScalars(self._scalars)
+
+    def faces_changed(self) -> None:
+        """The geometry draws other triangles: they take the colours of their simplices."""
+        self._make_scalars()
+        if self._texture_points is not None:
+            self._make_texture_points()
+        if self._latest is not None:
+            self.set_values(*self._latest)
 
     def _style(self, edges: bool) -> None:
         style = self._actor.GetProperty()
@@ -113,13 +130,16 @@ class Surface:
         self._pattern = pattern
         self._actor.GetProperty().SetEdgeOpacity(0.25)
         if self._texture_points is None:
-            self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
-            self._texture_data = numpy_to_vtk(self._texture_points, deep=0)
-            self._polydata.GetPointData().SetTCoords(self._texture_data)
+            self._make_texture_points()
         self._actor.SetTexture(pattern_texture(pattern, self._theme.is_dark, draws_with_card()))
         self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
+
+    def _make_texture_points(self) -> None:
+        self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
+        self._texture_data = numpy_to_vtk(self._texture_points, deep=0)
+        self._polydata.GetPointData().SetTCoords(self._texture_data)
 
     def _drop_texture(self) -> None:
         self._pattern = None
@@ -137,27 +157,30 @@ class Surface:
         self._texture_data.Modified()
 
     def set_values(self, values: NDArray[Any] | None, inverted: Booleans) -> None:
-        """One number a triangle (m,), or None for plain; `inverted` (m,) bool are drawn yellow, outlined dark."""
+        """One number a simplex (m,), or None for plain; `inverted` (m,) bool are drawn yellow, outlined dark."""
+        self._latest = (values, inverted)
+        owners = self.geometry.faces.simplices
         if values is None or self._pattern is not None or self._is_plain:
             self._values[:] = 0.0
         else:
-            np.copyto(self._values, values, casting="same_kind")
+            np.copyto(self._values, values if owners is None else values[owners], casting="same_kind")
             # an infinite distortion lies beyond the table; NaN is kept for inverted triangles alone
             np.nan_to_num(self._values, copy=False, nan=3e38, posinf=3e38, neginf=-3e38)
         if inverted.any():
-            self._values[inverted] = np.nan
+            self._values[inverted if owners is None else inverted[owners]] = np.nan
         self._scalars.Modified()
         self._show_inverted(np.flatnonzero(inverted))
 
     # ------------------------------------------------------------------------------------------ lines
 
-    def _show_inverted(self, rows: Integers) -> None:
-        """Draw these triangles once more above the others: a map folds them below what they overlap."""
-        if np.array_equal(rows, self._inverted_rows):
+    def _show_inverted(self, simplices: Integers) -> None:
+        """Draw these simplices once more above the others: a map folds them below what they overlap."""
+        drawn = (self.geometry.faces, simplices)
+        if drawn[0] is self._inverted_shown[0] and np.array_equal(simplices, self._inverted_shown[1]):
             return
-        self._inverted_rows = rows
-        self._inverted_actor.SetVisibility(len(rows) > 0)
-        self._inverted.SetPolys(cells(self.geometry.triangles[rows]))
+        self._inverted_shown = drawn
+        self._inverted_actor.SetVisibility(len(simplices) > 0)
+        self._inverted.SetPolys(cells(self.geometry.faces.all_sides(simplices)))
 
     def set_cut_edges(self, edges: Integers) -> None:
         """Edges (k, 2) that a cut opened: green."""
@@ -169,9 +192,9 @@ class Surface:
         self._brush.show(part)
 
 
-def _inverted_actor(polydata: vtkPolyData) -> Any:
+def _inverted_actor(polydata: vtkPolyData, nearer: float) -> Any:
     """Yellow with dark edges."""
-    actor = surface_actor(polydata, INVERTED, nearer=6.0)
+    actor = surface_actor(polydata, INVERTED, nearer=nearer)
     style = actor.GetProperty()
     style.EdgeVisibilityOn()
     style.SetEdgeColor(*INVERTED_OUTLINE)
