@@ -11,7 +11,7 @@ from workbench.core.fence import fenced_step
 from workbench.core.overflow import tempered_step
 from workbench.core.problem import Problem
 from workbench.core.softening import softened_step
-from workbench.core.solver import Interrupt, Solver
+from workbench.core.solver import Interrupt, Solver, counted
 from workbench.core.state import State
 from workbench.core.status import Status
 
@@ -46,7 +46,7 @@ def checked(solver: Solver, problem: Problem, state: State, following: State) ->
         return replace(state, status=Status.NONFINITE)
     if state.inverted == 0 and problem.forbids_inversions and problem.inverted(following.positions):
         raise SolverFaultError(f"{solver.label} made a map with inverted simplices; the last good map is kept.")
-    return following
+    return counted(problem, state, following)
 
 
 def _step(solver: Solver, problem: Problem, state: State, interrupt: Interrupt) -> State:

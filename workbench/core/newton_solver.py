@@ -27,6 +27,7 @@ class NewtonSolver(DescentSolver):
     a factorisation.
     """
 
+    second_order: ClassVar[bool] = True
     takes_fences: ClassVar[bool] = True
 
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)

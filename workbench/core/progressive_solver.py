@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from workbench.core.descent import Derivatives, descend
 from workbench.core.descent_solver import DescentSolver, direction_in_metric
@@ -42,6 +42,8 @@ class ProgressiveSolver(DescentSolver):
     of `near`. Step lengths are found on the energy of the true source, so that it never rises; a reference whose step does
     not lower it is given up. Tetrahedra and inverted simplices have no reference: there every step is one of `near`.
     """
+
+    second_order: ClassVar[bool] = True
 
     bound: float = parameter(250.0, "largest symmetric Dirichlet density against the reference", minimum=4.1, maximum=1e12)
     close: float = parameter(0.01, "relative decrease of a step below which the source is used", minimum=0.0, maximum=1.0)

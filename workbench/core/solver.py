@@ -27,6 +27,8 @@ ROUNDING = 1e-13
 """A decrease below this part of the energy cannot be told from rounding."""
 ZERO = 1e-14
 """An energy a unit of the source below which it is 0: one whose minimum is 0 never falls by a small part of itself."""
+CONFIRMATIONS = 5
+"""Small decreases in a row that end a run where a single one may be an accident (see `Solver.terminate`)."""
 
 
 def never() -> bool:
@@ -41,6 +43,8 @@ class Solver(Method, ABC):
     """Whether the energy never rises in a step once the anchors are in place."""
     initializer: ClassVar[str] = ""
     """Id of the start that it wishes for; empty: the default of the kind of map."""
+    second_order: ClassVar[bool] = False
+    """Whether full steps are Newton's, so that one with a small decrease has come where nothing is left to gain."""
     takes_fences: ClassVar[bool] = False
     """Whether steps that the step bound shortens are taken along a fence (see `workbench.core.fence`)."""
     distortions: ClassVar[tuple[str, ...]] = ()
@@ -81,7 +85,13 @@ class Solver(Method, ABC):
         """
 
     def terminate(self, problem: Problem, state: State) -> Status:
-        """The status after a step, by the criteria that all solvers share."""
+        """The status after a step, by the criteria that all solvers share.
+
+        CONVERGED where the anchors are in place and (E_before - E_after)/|E_after| <= tolerance. A full Newton step says so
+        alone. After any other step, one of a method of linear rate or one that the step bound has shortened, a small decrease
+        may be an accident far from the minimum, so it takes `CONFIRMATIONS` in a row, unless the map did not move
+        at all or the energy is 0. Also CONVERGED where a gradient tolerance is given and the norm is at most that part of `characteristic_gradient`.
+        """
         if state.status is not Status.RUNNING:
             return state.status
         if not math.isfinite(state.energy):
@@ -89,13 +99,12 @@ class Solver(Method, ABC):
             return Status.RUNNING if problem.may_overflow else Status.NONFINITE
         if problem.anchors_lag(state.positions):
             return Status.RUNNING
-        criteria = problem.criteria
-        if math.isfinite(state.previous_energy):
-            decrease = state.previous_energy - state.energy
-            floor = ZERO * problem.total_measure
-            if 0.0 <= decrease <= max(criteria.tolerance * abs(state.energy), floor):
+        if has_small_decrease(problem, state):
+            is_full = self.second_order and state.limiting_simplex < 0
+            is_still = state.step_size == 0.0 or abs(state.energy) <= ZERO * problem.total_measure
+            if is_full or is_still or state.small_decreases >= CONFIRMATIONS:
                 return Status.CONVERGED
-        asked = criteria.gradient_tolerance
+        asked = problem.criteria.gradient_tolerance
         if asked is not None and state.gradient_norm <= asked * characteristic_gradient(problem):
             return Status.CONVERGED
         return Status.RUNNING
@@ -103,6 +112,18 @@ class Solver(Method, ABC):
     def rebase(self, problem: Problem, state: State) -> State:
         """Anchors, distortion or parameters moved: the same map under the new problem; the solver's memory is dropped."""
         return restarted(problem, state)
+
+
+def has_small_decrease(problem: Problem, state: State) -> bool:
+    """Whether the last step lowered the energy by no more than the tolerance."""
+    decrease = state.previous_energy - state.energy
+    return 0.0 <= decrease <= max(problem.criteria.tolerance * abs(state.energy), ZERO * problem.total_measure)
+
+
+def counted(problem: Problem, state: State, following: State) -> State:
+    """`following`, the outcome of a step from `state`, with the number of small decreases in a row up to it."""
+    count = state.small_decreases + 1 if has_small_decrease(problem, following) else 0
+    return following if count == following.small_decreases else replace(following, small_decreases=count)
 
 
 def restarted(problem: Problem, state: State) -> State:
@@ -115,6 +136,7 @@ def restarted(problem: Problem, state: State) -> State:
         inverted=evaluation.inverted,
         anchor_error=problem.anchor_error(state.positions),
         previous_energy=float("nan"),
+        small_decreases=0,
         status=Status.RUNNING,
         memory=None,
         approach=Approach(),

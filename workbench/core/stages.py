@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from workbench.core.problem import Problem
-from workbench.core.solver import Interrupt, Solver
+from workbench.core.solver import Interrupt, Solver, counted
 from workbench.core.state import State
 from workbench.core.status import Status
 
@@ -60,6 +60,7 @@ def staged_step(solver: Solver, stage: Stage, state: State, interrupt: Interrupt
         following = step(solver, stage.current, stage.state, interrupt)
         if following.status is Status.INTERRUPTED:
             return replace(state, status=Status.INTERRUPTED)
+        following = counted(stage.current, stage.state, following)
         energy = problem.energy_and_inverted(following.positions)[0]
         lags = problem.anchors_lag(state.positions)
         is_over = solver.terminate(stage.current, following) is not Status.RUNNING

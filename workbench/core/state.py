@@ -46,6 +46,7 @@ class State:
     anchor_error : float          largest distance of a hard anchor from its target
     status : Status
     previous_energy : float       energy before the last step, at the same anchors; NaN where there is none
+    small_decreases : int         steps in a row, up to this one, that lowered the energy by no more than the tolerance
     limiting_simplex : int        simplex that bounded the last step, -1 where none did
     memory : object               the solver's own
     approach : Approach           of anchors that lag
@@ -60,6 +61,7 @@ class State:
     anchor_error: float = 0.0
     status: Status = Status.RUNNING
     previous_energy: float = float("nan")
+    small_decreases: int = 0
     limiting_simplex: int = -1
     memory: Any = field(default=None, repr=False)
     approach: Approach = Approach()
