@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from workbench.core.anchor_motion import anchor_groups, next_displacement
+from workbench.core.anchor_response import AnchorResponse, displacement_shapes
 from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 
 BOUNDARY_PART = 0.6
 """Part of the largest step without inversion that anchors may push: what is left lets the next correction push back."""
-PREDICTED_ANCHORS = 4
-"""Anchors that may move at once for their response to be kept."""
 PREDICTED_RISE = 0.02
 """Part of the energy that a prediction may cost; a dearer one is left to a step that weighs it."""
 LEAST_PREDICTION = 0.02
@@ -108,35 +107,44 @@ def _bounded_push(problem: Problem, x: Floats, direction: Floats) -> tuple[float
     return 1.0, -1
 
 
+def shapes_ahead(problem: Problem, state: State, kept: AnchorResponse | None) -> Floats:
+    """(k, r) shapes of the way that the hard anchors have before them: those of the `kept` response where they will do."""
+    places = state.positions[problem.anchors.hard_vertices]
+    displacement = next_displacement(places, problem.anchors.hard_targets, _groups(problem))
+    if kept is not None and kept.parts(displacement) is not None:
+        return kept.shapes
+    return displacement_shapes(displacement, places, moved_anchors(problem, state), _groups(problem))
+
+
 def predict_with_response(
     problem: Problem,
     state: State,
     interrupt: Callable[[], bool],
-    response: Callable[[Integers], Floats | None],
+    respond: Callable[[Floats], Floats | None],
 ) -> State | None:
-    """Carry the map along with a few anchors that moved, without a solve: the answer to a unit displacement is kept.
+    """Carry the map along with anchors that moved, without a solve: the answer to a unit displacement is kept.
 
-    What an event of the hand costs until the next picture; a correction comes after it. `response` gives, for the moved
-    vertices, what `NewtonSystem.response` does, or None. Returns None where there is none, or where the step would gain
-    nothing or cost too much energy.
+    What an event of the hand costs until the next picture; a correction comes after it. `respond` gives, for a displacement
+    of the hard anchors (k, d), what `AnchorResponse.to` does, or None. Returns None where there is none, or where the step
+    would gain nothing or cost too much energy.
     """
     x = state.positions
     hard = problem.anchors.hard_vertices
-    displacement = problem.anchors.hard_targets - x[hard]
+    displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
     moved = moved_anchors(problem, state)
-    if not 0 < len(moved) <= PREDICTED_ANCHORS:
+    if not len(moved):
         return None
-    matrix = response(hard[moved])
-    if matrix is None:
+    direction = respond(displacement)
+    if direction is None:
         return None
-    direction = (displacement[moved].reshape(-1) @ matrix).reshape(x.shape)
     with problem.workspace.timed("line_search"):
         size, limiting = _bounded_push(problem, x, direction)
         allowed = state.energy + PREDICTED_RISE * abs(state.energy)
         while size >= LEAST_PREDICTION:
             candidate = x + size * direction
             if size == 1.0:
-                candidate[hard[moved]] = problem.anchors.hard_targets[moved]
+                candidate[hard[moved]] = x[hard[moved]] + displacement[moved]
+                _place_exactly(problem, candidate)
             energy, inverted = problem.energy_and_inverted(candidate)
             if energy <= allowed and not (inverted and state.inverted == 0):
                 break
@@ -161,12 +169,27 @@ def predict_with_response(
     )
 
 
+def respond_with_last_factor(problem: Problem, state: State) -> Callable[[Floats], Floats | None]:
+    """What `predict_with_response` asks for, by the problem's own last factor; its answers to a few shapes are kept."""
+    system = problem.system
+
+    def respond(displacement: Floats) -> Floats | None:
+        direction = system.kept_response.to(displacement) if system.kept_response is not None else None
+        if direction is None:
+            shapes = shapes_ahead(problem, state, None)
+            system.kept_response = AnchorResponse(shapes, system.response(shapes))
+            direction = system.kept_response.to(displacement)
+        return direction
+
+    return respond
+
+
 def predict_with_last_factor(problem: Problem, state: State, interrupt: Callable[[], bool]) -> State | None:
     """`predict_with_response` by the problem's own last factor; never twice in a row without a correction in between."""
-    system = problem.system
-    if state.approach.predicted or state.approach.hold or not system.serves(problem.anchors.hard_vertices):
+    approach = state.approach
+    if approach.predicted or approach.hold or not problem.system.serves(problem.anchors.hard_vertices):
         return None
-    return predict_with_response(problem, state, interrupt, system.response)
+    return predict_with_response(problem, state, interrupt, respond_with_last_factor(problem, state))
 
 
 def apply_correction(problem: Problem, state: State, direction: Floats, gradient_norm: float) -> State:

@@ -6,6 +6,7 @@ import time
 
 import numpy as np
 
+from workbench.core.anchor_response import AnchorResponse
 from workbench.core.arrays import Floats, Integers
 from workbench.core.constraints import LinearConstraints
 from workbench.core.linear_solver import LinearSolver, SingularMatrixError, make_linear_solver
@@ -30,7 +31,7 @@ class NewtonSystem:
         self._fixed_entries: Integers = np.empty(0, dtype=np.int64)
         self._fixed_mask = np.zeros(pattern.size, dtype=bool)
         self._values: Floats | None = None
-        self._responses: dict[bytes, Floats] = {}
+        self.kept_response: AnchorResponse | None = None  # of the last factor
         self.factorised_at = 0.0  # time.perf_counter() at the end of the last factorisation
         self.seconds = {"factorise": 0.0, "solve": 0.0}
         self.counts = {"factorise": 0, "solve": 0}
@@ -62,31 +63,28 @@ class NewtonSystem:
         work = float(vector[self._fixed_coordinates] @ self._reaction(vector))
         return self.pattern.from_matrix_order(pushed), work
 
-    def response(self, vertices: Integers) -> Floats:
+    def response(self, shapes: Floats) -> Floats:
         """How the map follows eliminated vertices by the last factor: -H_ff^-1 H_fa, and the anchors themselves.
 
         Parameters
         ----------
-        vertices : (j,) int64      some of those eliminated; their coordinates are the rows of the result
+        shapes : (k, r) float64      displacements of the eliminated vertices, as numbers that stand for any one coordinate
 
         Returns
         -------
-        (j d, N d) float64      displacement of every vertex for a unit displacement of each coordinate; kept with the factor
+        (r d, N d) float64      displacement of every vertex for each shape in each coordinate
         """
-        key = vertices.tobytes()
-        if key not in self._responses:
-            pattern, d = self.pattern, self.pattern.dimension
-            coordinates = (pattern.place[vertices][:, None] * d + np.arange(d)).reshape(-1)
-            rhs = np.empty((pattern.size, len(coordinates)))
-            for column, coordinate in enumerate(coordinates):
-                unit = np.zeros(pattern.size)
-                unit[coordinate] = 1.0
-                rhs[:, column] = -self._pushed(unit)
-                rhs[self._fixed_coordinates, column] = unit[self._fixed_coordinates]
-            solution = self.solver.solve(rhs)
-            self.counts["solve"] += 1
-            self._responses[key] = np.stack([pattern.from_matrix_order(c).reshape(-1) for c in solution.T])
-        return self._responses[key]
+        pattern, d = self.pattern, self.pattern.dimension
+        rhs = np.empty((pattern.size, shapes.shape[1] * d))
+        for column in range(rhs.shape[1]):
+            shape, coordinate = divmod(column, d)
+            moved = np.zeros(pattern.size)
+            moved[self._fixed_coordinates[coordinate::d]] = shapes[:, shape]
+            rhs[:, column] = -self._pushed(moved)
+            rhs[self._fixed_coordinates, column] = moved[self._fixed_coordinates]
+        solution = self.solver.solve(rhs)
+        self.counts["solve"] += 1
+        return np.stack([pattern.from_matrix_order(c).reshape(-1) for c in solution.T])
 
     def _pushed(self, vector: Floats) -> Floats:
         """H times the eliminated part of `vector`, (dN,); only entries in eliminated rows and columns are touched."""
@@ -119,7 +117,7 @@ class NewtonSystem:
     def forget(self) -> None:
         """The last factor belongs to another energy; do not use it again."""
         self._values = None
-        self._responses.clear()
+        self.kept_response = None
 
     def _set_fixed(self, fixed: Integers) -> None:
         if np.array_equal(self._fixed, fixed):
@@ -140,7 +138,7 @@ class NewtonSystem:
         """
         begin = time.perf_counter()
         self._values = None
-        self._responses.clear()
+        self.kept_response = None
         self._set_fixed(fixed)
         diagonal = self.pattern.diagonal
         scale = float(values[diagonal].max(initial=0.0))

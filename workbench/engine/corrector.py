@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from workbench.core.anchor_steps import PREDICTED_ANCHORS, moved_anchors
+from workbench.core.anchor_response import AnchorResponse
+from workbench.core.anchor_steps import shapes_ahead
 from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Energy
@@ -47,7 +48,7 @@ class _Request:
     distortion: Distortion
     positions: Floats
     hard: Integers
-    moving: Integers
+    shapes: Floats
     fresh: bool
 
 
@@ -55,15 +56,14 @@ class _Request:
 class Correction:
     """A Newton direction (N, d) with the anchors held, for the map of the request, and the response where it is new.
 
-    `response` : (j d, N d) to unit displacements of `moving` (j,), see `NewtonSystem.response`;  `key` tells the request,
-    `fresh` whether the factor was made for it
+    `response` : to displacements of the anchors in the shapes that were asked for;  `key` tells the request, `fresh`
+    whether the factor was made for it
     """
 
     key: tuple[Any, ...]
     direction: Floats
     gradient_norm: float
-    moving: Integers
-    response: Floats | None
+    response: AnchorResponse | None
     fresh: bool
 
 
@@ -77,7 +77,7 @@ class CorrectorClient:
         self._asked_fresh = False
         self._asked_at = 0.0
         self._chords = CHORDS
-        self._response: tuple[tuple[Any, ...], Integers, Floats] | None = None
+        self._response: tuple[tuple[Any, ...], AnchorResponse] | None = None
 
     @property
     def waits_for(self) -> list[Connection]:
@@ -89,9 +89,9 @@ class CorrectorClient:
         self.poll(problem)
         self.prepare(problem)
 
-    def serves(self, problem: Problem, state: State) -> bool:
-        """Whether this problem can be corrected elsewhere, and is worth it; not where a whole group of anchors moves."""
-        if not self._takes(problem) or len(moved_anchors(problem, state)) > PREDICTED_ANCHORS:
+    def serves(self, problem: Problem) -> bool:
+        """Whether this problem can be corrected elsewhere, and is worth it."""
+        if not self._takes(problem):
             return False
         if self._asked in (GREETING, PREPARATION):
             self.poll(problem)
@@ -134,17 +134,16 @@ class CorrectorClient:
         """Ask for a correction of this map, unless one is under way; `fresh` asks for a new factor."""
         if self._connection is None or self._asked is not None:
             return
-        moved = problem.anchors.hard_vertices[moved_anchors(problem, state)]
         key = _key(problem)
-        if not len(moved) and self._response is not None and self._response[0] == key:
-            moved = self._response[1]
+        kept = self._response[1] if self._response is not None and self._response[0] == key else None
+        shapes = shapes_ahead(problem, state, kept)
         self.prepare(problem)
         if self._connection is None or self._asked is not None:
             return
         try:
             hard = problem.anchors.hard_vertices
             self._connection.send(
-                _Request(key, problem.distortion, state.positions, hard, moved, fresh or self._chords >= CHORDS)
+                _Request(key, problem.distortion, state.positions, hard, shapes, fresh or self._chords >= CHORDS)
             )
             self._asked = key
             self._asked_fresh, self._asked_at = fresh or self._chords >= CHORDS, time.perf_counter()
@@ -167,16 +166,14 @@ class CorrectorClient:
         if not isinstance(correction, Correction) or correction.key != _key(problem):
             return None
         if correction.response is not None:
-            self._response = (correction.key, correction.moving, correction.response)
+            self._response = (correction.key, correction.response)
         return correction
 
-    def response(self, problem: Problem, moved: Integers) -> Floats | None:
-        """The kept response to displacements of the vertices `moved`, None where there is none for these anchors."""
+    def respond(self, problem: Problem, displacement: Floats) -> Floats | None:
+        """Displacement of the map (N, d) for one of its hard anchors (k, d) by the kept response, None where none holds it."""
         if self._response is None or self._response[0] != _key(problem):
             return None
-        if not np.array_equal(self._response[1], moved):
-            return None
-        return self._response[2]
+        return self._response[1].to(displacement)
 
 
 def _key(problem: Problem) -> tuple[Any, ...]:
@@ -217,6 +214,7 @@ class _Desk:
         self._system: NewtonSystem | None = None
         self._key: tuple[Any, ...] = ()
         self._chords = 0
+        self._shapes = np.empty((0, 0))  # those that the last factor was asked about
 
     def take(self, elements: Elements) -> None:
         self._energy, self._system, self._key = Energy(elements, Distortion("none", "none", "sum(sigma)")), None, ()
@@ -242,7 +240,7 @@ class _Desk:
                 evaluation = self._energy.gradient(request.positions)
                 self._chords += 1
             direction = self._system.solve(evaluation.gradient)
-            response = self._system.response(request.moving) if len(request.moving) else None
+            response = self._response(request.shapes, fresh)
         except SingularMatrixError:
             return None
         if not np.isfinite(direction).all():
@@ -250,4 +248,12 @@ class _Desk:
         free = evaluation.gradient
         free[request.hard] = 0.0
         norm = float(np.linalg.norm(free))
-        return Correction(request.key, direction, norm, request.moving, response if fresh else None, fresh)
+        return Correction(request.key, direction, norm, response, fresh)
+
+    def _response(self, shapes: Floats, fresh: bool) -> AnchorResponse | None:
+        """The answer to `shapes`, where it has not been given with the present factor already."""
+        if not shapes.size or (not fresh and np.array_equal(shapes, self._shapes)):
+            return None
+        assert self._system is not None
+        self._shapes = shapes
+        return AnchorResponse(shapes, self._system.response(shapes))

@@ -13,8 +13,9 @@ from workbench.core.anchor_steps import (
     correct_with_last_factor,
     predict_with_last_factor,
     predict_with_response,
+    respond_with_last_factor,
 )
-from workbench.core.arrays import Floats, Integers
+from workbench.core.arrays import Floats
 from workbench.core.problem import Problem
 from workbench.core.state import State
 from workbench.core.threads import one_thread
@@ -23,7 +24,7 @@ from workbench.engine.corrector import LONG, CorrectorClient
 POOR_CORRECTION = 0.25
 """Part of a correction below which the next one is asked with a fresh factor."""
 TOO_LONG = 0.5
-"""Seconds of waiting for a first correction after which the engine factorises by itself."""
+"""Seconds of waiting for a correction after which the engine factorises by itself, now and then."""
 
 
 class HandFollower:
@@ -51,7 +52,7 @@ class HandFollower:
 
     def step(self, problem: Problem, state: State) -> State | None:
         """The next map, None where nothing is to be done before the next event."""
-        if self._corrector.serves(problem, state):
+        if self._corrector.serves(problem):
             with one_thread():  # the corrector and the drawing have the other core
                 return self._with_corrector(problem, state)
         # Where the corrector is only getting ready, what it will bring is not worth a pause now.
@@ -85,16 +86,19 @@ class HandFollower:
         own = problem.system
         has_factor = own.serves(problem.anchors.hard_vertices)
 
-        def response(moved: Integers) -> Floats | None:
-            kept = corrector.response(problem, moved)
-            return own.response(moved) if kept is None and has_factor else kept
+        own_respond = respond_with_last_factor(problem, state)
+
+        def respond(displacement: Floats) -> Floats | None:
+            direction = corrector.respond(problem, displacement)
+            return own_respond(displacement) if direction is None and has_factor else direction
 
         # After a step that an inversion bounded, another one of its kind would only press the map harder against it.
         was_bounded = state.approach.predicted and state.step_size < 1.0
-        predicted = None if was_bounded else predict_with_response(problem, state, self._pending, response)
+        predicted = None if was_bounded else predict_with_response(problem, state, self._pending, respond)
         if predicted is None and corrector.waited >= LONG:
+            renewal: Renewal = "rationed" if corrector.waited >= TOO_LONG else "never"
             if has_factor:
-                return correct_with_last_factor(problem, state, self._pending, renewal="never")
-            if corrector.waited >= TOO_LONG:  # the other process gets no processor: better slow than not at all
-                return approach_anchors(problem, state, self._pending, renewal="rationed")
+                return correct_with_last_factor(problem, state, self._pending, renewal=renewal)
+            if renewal == "rationed":  # the other process gets no processor: better slow than not at all
+                return approach_anchors(problem, state, self._pending, renewal=renewal)
         return predicted
