@@ -89,8 +89,9 @@ class Solver(Method, ABC):
 
         CONVERGED where the anchors are in place and (E_before - E_after)/|E_after| <= tolerance. A full Newton step says so
         alone. After any other step, one of a method of linear rate or one that the step bound has shortened, a small decrease
-        may be an accident far from the minimum, so it takes `CONFIRMATIONS` in a row, unless the map did not move
-        at all or the energy is 0. Also CONVERGED where a gradient tolerance is given and the norm is at most that part of `characteristic_gradient`.
+        may be an accident far from the minimum, so it takes `CONFIRMATIONS` in a row, unless the map did not move at all or
+        the energy is 0. Also CONVERGED where a gradient tolerance is given and the norm is at most that part of
+        `characteristic_gradient`.
         """
         if state.status is not Status.RUNNING:
             return state.status
