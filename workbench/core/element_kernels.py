@@ -1,4 +1,4 @@
-"""The fused kernels: positions to energy, gradient and projected Hessian, a block of simplices at a time.
+"""The fused kernels for triangles: positions to energy, gradient and projected Hessian, a block of simplices at a time.
 
 Each kernel works on the simplices [start, stop) and adds into buffers of its own, so that a few threads share the work and
 the sum is taken in a fixed order. Within a block: edges -> signed singular values -> the formula's tape -> assembly.
@@ -20,8 +20,8 @@ import numba
 import numpy as np
 
 from workbench.core.expression import SWITCH
-from workbench.core.jacobians import jacobian_2d, target_edges_3d
-from workbench.core.singular_values import determinant_3x3, half_angle, signed_svd_2x2, signed_svd_3x3
+from workbench.core.jacobians import jacobian_2d
+from workbench.core.singular_values import half_angle, signed_svd_2x2
 from workbench.core.tape import run_tape
 
 TIE = 1e-7
@@ -60,44 +60,6 @@ def energy_2d(  # type: ignore[no-untyped-def]
         for lane in range(count):
             energy += weights[block + lane] * row[lane]
     return energy, inverted
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy")
-def energy_3d(  # type: ignore[no-untyped-def]
-    x, simplices, inverse_rest, weights, kept, code, outputs, memory, barrier, start, stop
-):
-    """Energy of tetrahedra [start, stop): see `energy_2d`."""
-    lanes = memory.shape[1]
-    energy = 0.0
-    inverted = 0
-    D, J = np.empty((3, 3)), np.empty((3, 3))
-    U, V, s = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
-    for block in range(start, stop, lanes):
-        count = min(lanes, stop - block)
-        for lane in range(count):
-            e = block + lane
-            det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
-            if not det > 0.0:
-                inverted += 1
-                if barrier and (len(kept) == 0 or kept[e] > 0.5):
-                    return math.inf, inverted
-            _jacobian_3d(D, inverse_rest, e, J)
-            signed_svd_3x3(J, U, s, V)
-            memory[0, lane], memory[1, lane], memory[2, lane] = s[0], s[1], abs(s[2])
-            if len(kept):
-                memory[3, lane] = kept[e]
-        run_tape(code, memory)
-        row = memory[outputs[0]]
-        for lane in range(count):
-            energy += weights[block + lane] * row[lane]
-    return energy, inverted
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def _jacobian_3d(D, inverse_rest, e, J):  # type: ignore[no-untyped-def]
-    for i in range(3):
-        for j in range(3):
-            J[i, j] = D[i, 0] * inverse_rest[e, 0, j] + D[i, 1] * inverse_rest[e, 1, j] + D[i, 2] * inverse_rest[e, 2, j]
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
@@ -209,166 +171,3 @@ def derivatives_2d(  # type: ignore[no-untyped-def]
                     values[slots[e, slot]] += c0 * B[0, b] + c1 * B[1, b] + c2 * B[2, b] + c3 * B[3, b]
                     slot += 1
     return energy, inverted
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy")
-def derivatives_3d(  # type: ignore[no-untyped-def]
-    x, simplices, inverse_rest, weights, kept, code, outputs, memory, order, project, kink, slots, start, stop, gradient, values
-):
-    """Energy, gradient and, for order 2, Hessian values of tetrahedra [start, stop); slots (m, 78), see `derivatives_2d`."""
-    lanes = memory.shape[1]
-    frames_u, frames_v = np.empty((lanes, 3, 3)), np.empty((lanes, 3, 3))
-    signed = np.empty((lanes, 3))
-    energy = 0.0
-    inverted = 0
-    D, J = np.empty((3, 3)), np.empty((3, 3))
-    H = np.empty((4, 3))
-    y = np.empty(3)
-    Q, block3 = np.empty((3, 3)), np.empty((3, 3))
-    first, size = np.empty(3), np.empty(3)
-    B = np.empty((9, 12))
-    lam = np.empty(9)
-    scaled = np.empty(9)
-    for block in range(start, stop, lanes):
-        count = min(lanes, stop - block)
-        for lane in range(count):
-            e = block + lane
-            det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
-            if not det > 0.0:
-                inverted += 1
-            _jacobian_3d(D, inverse_rest, e, J)
-            signed_svd_3x3(J, frames_u[lane], signed[lane], frames_v[lane])
-            memory[0, lane], memory[1, lane], memory[2, lane] = signed[lane, 0], signed[lane, 1], abs(signed[lane, 2])
-            if len(kept):
-                memory[3, lane] = kept[e]
-        run_tape(code, memory)
-        for lane in range(count):
-            e = block + lane
-            w = weights[e]
-            U, V = frames_u[lane], frames_v[lane]
-            sign = -1.0 if signed[lane, 2] < 0.0 else 1.0
-            energy += w * memory[outputs[0], lane]
-            for i in range(3):
-                first[i] = memory[outputs[1 + i], lane]
-                size[i] = memory[i, lane]
-            if kink:
-                _meet_at_ties(size, first)
-            for i in range(3):
-                H[0, i] = 0.0
-            for j in range(3):
-                for i in range(3):
-                    h = V[0, i] * inverse_rest[e, j, 0] + V[1, i] * inverse_rest[e, j, 1] + V[2, i] * inverse_rest[e, j, 2]
-                    H[j + 1, i] = h
-                    H[0, i] -= h
-            for j in range(4):
-                v = simplices[e, j]
-                for c in range(3):
-                    gradient[v, c] += w * (
-                        U[c, 0] * first[0] * H[j, 0] + U[c, 1] * first[1] * H[j, 1] + U[c, 2] * sign * first[2] * H[j, 2]
-                    )
-            if order < 2:
-                continue
-            k = 4
-            for i in range(3):
-                for j in range(i, 3):
-                    block3[i, j] = block3[j, i] = memory[outputs[k], lane]
-                    k += 1
-            r = 3
-            for i in range(3):
-                for j in range(i + 1, 3):
-                    gap = size[i] - size[j]
-                    along = (first[i] + first[j]) / max(size[i] + size[j], 1e-12 * size[0] + 1e-300)
-                    across = (first[i] - first[j]) / gap if gap > TIE * size[0] else block3[i, i] - block3[i, j]
-                    if kink:
-                        across = (first[i] - first[j]) / max(gap, SWITCH * size[0], 1e-300)
-                        radial = 0.5 * (block3[i, i] - 2.0 * block3[i, j] + block3[j, j])
-                        if gap < SWITCH * size[0] or (project and across > radial):
-                            lift = 0.5 * (across - radial)
-                            block3[i, i] += lift
-                            block3[j, j] += lift
-                            block3[i, j] -= lift
-                            block3[j, i] -= lift
-                    # twist and flip change places where one of the two values is negative
-                    if j == 2 and sign < 0.0:
-                        along, across = across, along
-                    lam[r], lam[r + 1] = along, across
-                    for v in range(4):
-                        t0, t1 = math.sqrt(0.5) * H[v, j], math.sqrt(0.5) * H[v, i]
-                        for c in range(3):
-                            B[r, 3 * v + c] = U[c, i] * t0 - U[c, j] * t1
-                            B[r + 1, 3 * v + c] = U[c, i] * t0 + U[c, j] * t1
-                    r += 2
-            for i in range(2):
-                block3[i, 2] *= sign
-                block3[2, i] *= sign
-            symmetric_eigen_3x3(block3, Q)
-            for i in range(3):
-                lam[i] = block3[i, i]
-                for v in range(4):
-                    for a in range(3):
-                        y[a] = Q[a, i] * H[v, a]
-                    for c in range(3):
-                        B[i, 3 * v + c] = U[c, 0] * y[0] + U[c, 1] * y[1] + U[c, 2] * y[2]
-            for i in range(9):
-                if project and not lam[i] > 0.0:
-                    lam[i] = 0.0
-                lam[i] *= w
-            slot = 0
-            for a in range(12):
-                for i in range(9):
-                    scaled[i] = lam[i] * B[i, a]
-                for b in range(a, 12):
-                    total = 0.0
-                    for i in range(9):
-                        total += scaled[i] * B[i, b]
-                    values[slots[e, slot]] += total
-                    slot += 1
-    return energy, inverted
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy")
-def _meet_at_ties(size, first):  # type: ignore[no-untyped-def]
-    """Draw the D_i of nearly equal singular values to their mean: the whole way at a tie."""
-    near = SWITCH * size[0]
-    if size[0] - size[2] < near:
-        mean = (first[0] + first[1] + first[2]) / 3.0
-        share = (size[0] - size[2]) / near
-        for i in range(3):
-            first[i] = mean + share * (first[i] - mean)
-        return
-    for i in range(2):
-        gap = size[i] - size[i + 1]
-        if gap < near:
-            mean, half = 0.5 * (first[i] + first[i + 1]), 0.5 * (first[i] - first[i + 1]) * (gap / near)
-            first[i], first[i + 1] = mean + half, mean - half
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy")
-def symmetric_eigen_3x3(A, Q):  # type: ignore[no-untyped-def]
-    """Cyclic Jacobi: A (3, 3) symmetric is made diagonal in place, the columns of Q are the eigenvectors."""
-    for i in range(3):
-        for j in range(3):
-            Q[i, j] = 1.0 if i == j else 0.0
-    for _ in range(30):
-        scale = abs(A[0, 0]) + abs(A[1, 1]) + abs(A[2, 2])
-        off = abs(A[0, 1]) + abs(A[0, 2]) + abs(A[1, 2])
-        if not off > 1e-17 * scale:
-            return
-        for k in range(3):
-            p = 0 if k < 2 else 1
-            q = 1 if k == 0 else 2
-            if A[p, q] == 0.0:
-                continue
-            theta = (A[q, q] - A[p, p]) / (2.0 * A[p, q])
-            t = (1.0 if theta >= 0 else -1.0) / (abs(theta) + math.sqrt(1.0 + theta * theta))
-            c = 1.0 / math.sqrt(1.0 + t * t)
-            s = c * t
-            for i in range(3):
-                a, b = A[i, p], A[i, q]
-                A[i, p], A[i, q] = c * a - s * b, s * a + c * b
-            for i in range(3):
-                a, b = A[p, i], A[q, i]
-                A[p, i], A[q, i] = c * a - s * b, s * a + c * b
-            for i in range(3):
-                a, b = Q[i, p], Q[i, q]
-                Q[i, p], Q[i, q] = c * a - s * b, s * a + c * b

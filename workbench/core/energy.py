@@ -9,11 +9,12 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
-from workbench.core.element_kernels import derivatives_2d, derivatives_3d, energy_2d, energy_3d
+from workbench.core.element_kernels import derivatives_2d, energy_2d
 from workbench.core.jacobians import Elements, determinants
 from workbench.core.mesh import Mesh
 from workbench.core.pattern import HessianPattern, build_pattern
 from workbench.core.tape import Tape
+from workbench.core.tetrahedron_kernels import derivatives_3d, energy_3d
 from workbench.core.threads import over_ranges
 
 EVERY: Floats = np.empty(0)

@@ -154,6 +154,14 @@ def target_edges_3d(x, simplices, e, D):  # type: ignore[no-untyped-def]
     return determinant_3x3(D)
 
 
+@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def jacobian_3d(D, inverse_rest, e, J):  # type: ignore[no-untyped-def]
+    """Write the Jacobian of tetrahedron e, whose target edges are the columns of D, into J (3, 3)."""
+    for i in range(3):
+        for j in range(3):
+            J[i, j] = D[i, 0] * inverse_rest[e, 0, j] + D[i, 1] * inverse_rest[e, 1, j] + D[i, 2] * inverse_rest[e, 2, j]
+
+
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def _determinants_3d(x, simplices, inverse_rest, out):  # type: ignore[no-untyped-def]
     D = np.empty((3, 3))
@@ -167,9 +175,7 @@ def _singular_values_3d(x, simplices, inverse_rest, out):  # type: ignore[no-unt
     U, V, s = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     for e in range(simplices.shape[0]):
         det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
-        for i in range(3):
-            for j in range(3):
-                J[i, j] = D[i, 0] * inverse_rest[e, 0, j] + D[i, 1] * inverse_rest[e, 1, j] + D[i, 2] * inverse_rest[e, 2, j]
+        jacobian_3d(D, inverse_rest, e, J)
         signed_svd_3x3(J, U, s, V)
         out[e, 0], out[e, 1] = s[0], s[1]
         # One sign everywhere: that of the determinant as the line search sees it.

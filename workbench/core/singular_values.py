@@ -10,6 +10,9 @@ import math
 import numba
 import numpy as np
 
+ORTHOGONAL = 1e-31
+"""Square of the cosine between two columns below which they count as orthogonal: a few roundings."""
+
 
 @numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
 def determinant_3x3(M):  # type: ignore[no-untyped-def]
@@ -62,6 +65,14 @@ def signed_svd_2x2(a, b, c, d, det):  # type: ignore[no-untyped-def]
     return s1, s2, uc, us, vc, vs
 
 
+@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def unit_of(largest):  # type: ignore[no-untyped-def]
+    """What to divide a matrix by, given its largest entry by magnitude, so that squares of squares stay numbers: mostly 1."""
+    if 1e-60 < largest < 1e60 or not 0.0 < largest < math.inf:
+        return 1.0
+    return largest
+
+
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def signed_svd_3x3(J, U, s, V):  # type: ignore[no-untyped-def]
     """One-sided Jacobi (Hestenes): accurate for small, repeated and vanishing singular values.
@@ -69,10 +80,23 @@ def signed_svd_3x3(J, U, s, V):  # type: ignore[no-untyped-def]
     Writes rotations U and V (3, 3) and s (3,), descending by magnitude, the last with the sign of det J.
     """
     A = np.empty((3, 3))
+    largest = 0.0
     for i in range(3):
         for j in range(3):
-            A[i, j] = J[i, j]
+            largest = max(largest, abs(J[i, j]))
             V[i, j] = 1.0 if i == j else 0.0
+    unit = unit_of(largest)
+    for i in range(3):
+        for j in range(3):
+            A[i, j] = J[i, j] / unit
+    frames_from_columns(A, U, s, V)
+    for i in range(3):
+        s[i] *= unit
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def orthogonalise(A, V):  # type: ignore[no-untyped-def]
+    """Jacobi sweeps until the columns of A (3, 3) are orthogonal; the columns of V (3, 3) are turned alike."""
     for _ in range(30):
         rotated = False
         for k in range(3):
@@ -81,7 +105,7 @@ def signed_svd_3x3(J, U, s, V):  # type: ignore[no-untyped-def]
             app = A[0, p] * A[0, p] + A[1, p] * A[1, p] + A[2, p] * A[2, p]
             aqq = A[0, q] * A[0, q] + A[1, q] * A[1, q] + A[2, q] * A[2, q]
             apq = A[0, p] * A[0, q] + A[1, p] * A[1, q] + A[2, p] * A[2, q]
-            if abs(apq) <= 1e-16 * math.sqrt(app * aqq) or apq == 0.0:
+            if not apq * apq > ORTHOGONAL * app * aqq:
                 continue
             rotated = True
             zeta = (aqq - app) / (2.0 * apq)
@@ -95,6 +119,12 @@ def signed_svd_3x3(J, U, s, V):  # type: ignore[no-untyped-def]
                 V[i, p], V[i, q] = c * x - z * y, z * x + c * y
         if not rotated:
             break
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def frames_from_columns(A, U, s, V):  # type: ignore[no-untyped-def]
+    """The decomposition of A V^T, V a rotation: U, s and a new V; A is used up."""
+    orthogonalise(A, V)
     for j in range(3):
         s[j] = math.sqrt(A[0, j] * A[0, j] + A[1, j] * A[1, j] + A[2, j] * A[2, j])
     for k in range(3):  # sort the columns, descending
@@ -123,10 +153,10 @@ def _left_rotation(A, s, U):  # type: ignore[no-untyped-def]
         return
     for i in range(3):
         U[i, 0] = A[i, 0] / s[0]
-    if s[1] > 1e-300 and s[1] > 1e-15 * s[0]:
+    if s[1] > 1e-140 * s[0]:
         for i in range(3):
             U[i, 1] = A[i, 1] / s[1]
-    else:  # rank one: any direction orthogonal to the first
+    else:  # rank one, as the square of a product tells no angle any more: any direction orthogonal to the first
         k = 0
         for i in range(1, 3):
             if abs(U[i, 0]) < abs(U[k, 0]):
