@@ -127,7 +127,12 @@ def _extrapolated(
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def smallest_positive_root_quadratic(a, b, c):  # type: ignore[no-untyped-def]
-    """Smallest t > 0 with a t^2 + b t + c = 0 for c > 0; inf where there is none. Never divides by a vanishing leading term."""
+    """Smallest t > 0 with a t^2 + b t + c = 0 for c > 0; inf where there is none. Never divides by a vanishing leading term.
+
+    0 where a coefficient is not finite: no step can be trusted then.
+    """
+    if not abs(a) + abs(b) + c < math.inf:
+        return 0.0
     scale = max(abs(a), abs(b), c)
     a, b, c = a / scale, b / scale, c / scale  # squares of tiny coefficients vanish
     if a == 0.0:
@@ -148,14 +153,14 @@ def smallest_positive_root_quadratic(a, b, c):  # type: ignore[no-untyped-def]
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
-    """Smallest t > 0 with a t^3 + b t^2 + c t + d = 0 for d > 0; inf where there is none.
+    """Smallest t > 0 with a t^3 + b t^2 + c t + d = 0 for d > 0; inf where there is none, 0 where a coefficient is not finite.
 
     The cubic is split at its turning points into monotone pieces; the first piece that ends at or below zero holds the root,
     which a bisection finds to the last bit: no closed form, no vanishing denominator. A root is met from below.
     """
-    scale = max(abs(a), abs(b), abs(c), d)
-    if not scale < math.inf or d <= 0.0:
+    if not abs(a) + abs(b) + abs(c) + d < math.inf or d <= 0.0:  # a sum, as max may pass over what is no number
         return 0.0
+    scale = max(abs(a), abs(b), abs(c), d)
     a, b, c, d = a / scale, b / scale, c / scale, d / scale
     t1, t2 = math.inf, math.inf  # turning points, ascending, where positive
     first = positive_roots_quadratic(3.0 * a, 2.0 * b, c)
