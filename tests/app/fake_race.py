@@ -9,11 +9,11 @@ from workbench.core.jacobians import build_elements
 from workbench.engine.live import LiveColours
 from workbench.engine.messages import Command, Report, Run, Watch
 from workbench.engine.race_loop import RaceLoop
-from workbench.engine.race_messages import RaceEnded, RaceFrame, StartRace
+from workbench.engine.race_messages import RaceEnded, RaceFrame, StartRace, Switch
 
 
 class InlineRaceWorker:
-    """Carries every command out at once; `Run` goes on until nobody has a step to take."""
+    """Carries every command out at once; `Run`, and a switch while it holds, go on until nobody has a step to take."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
@@ -36,7 +36,7 @@ class InlineRaceWorker:
         if self._colours is not None:
             self._colours.watch(self._watch.measures, False)
         self._loop.handle(command)
-        while self._loop.advance() and isinstance(command, Run):
+        while self._loop.advance() and isinstance(command, Run | Switch):
             pass
 
     def take(self) -> list[Report]:

@@ -16,6 +16,7 @@ from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.theme import LIGHT
 from workbench.app.views import mesh_view
 from workbench.app.views.canvas import CardCanvas, MemoryCanvas
+from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.mesh import Mesh
@@ -96,3 +97,46 @@ def test_a_closed_view_draws_no_more(make_view, way: str) -> None:
     view.refresh()
     view.close_view()
     QTest.qWait(20)
+
+
+@pytest.mark.parametrize("zoom", [1.0, 6.0])
+def test_a_flat_picture_is_that_of_opengl(make_view, zoom: float) -> None:
+    compile_pictures()
+    mesh = grid_mesh()
+    view = make_view("memory", mesh)
+    drawn = []
+    colour_range = ColourRange(LIVE_QUANTITIES[0])
+    colour_range.set_ends(0.0, 1.0)
+    view.surface.show_range(colour_range)
+    view.geometry_shown.write(mesh.vertices * [1.0, 0.9] + 0.03 * np.sin(7.0 * mesh.vertices[:, ::-1]))
+    view.surface.set_values(np.linspace(-0.1, 1.2, mesh.simplex_count), np.zeros(mesh.simplex_count, bool))
+    view.set_camera(view.camera.zoomed(zoom, (60.3, 41.7), view.size_in_pixels))
+    for paints in (False, True):
+        if paints:
+            view.paint_flat_maps()
+            assert view.canvas.painter(240, 180) is not None
+        view.refresh()
+        drawn.append(pixels(view))
+    assert drawn[0].std() > 10, "there is something in the picture"
+    differs = (np.abs(drawn[0] - drawn[1]) > 1).any(axis=2)
+    assert differs.mean() < 0.01  # where a centre lies on an edge either triangle may have it
+
+
+def test_what_is_more_than_flat_colours_is_left_to_opengl(make_view) -> None:
+    compile_pictures()
+    mesh = grid_mesh()
+    view = make_view("memory", mesh)
+    view.paint_flat_maps()
+    surface = view.surface
+    inverted = np.zeros(mesh.simplex_count, bool)
+    assert surface.flat_colours() is not None
+    surface.set_edges(True)
+    assert surface.flat_colours() is None
+    surface.set_edges(False)
+    inverted[7] = True
+    surface.set_values(None, inverted)
+    assert surface.flat_colours() is None  # their outlines
+    surface.set_values(None, ~inverted & False)
+    surface.show_pattern("checkerboard")
+    assert surface.flat_colours() is None
+    assert make_view("memory", bumpy_mesh()).surface.flat_colours() is None  # light

@@ -67,7 +67,8 @@ def activate(race: RaceWindow) -> None:
 
 
 def finish(race: RaceWindow, qtbot: QtBot) -> None:
-    race.actions_by_name["run"].trigger()
+    if not race.model.is_over:
+        race.actions_by_name["run"].trigger()
     qtbot.waitUntil(lambda: race.model.is_over)
     settle(race, qtbot)
 

@@ -94,6 +94,7 @@ class ContestantPane(QWidget):
         below.addWidget(self.numbers)
         layout.addLayout(below)
         self.view = MeshView(theme, self)
+        self.view.paint_flat_maps()
         self.tool = LinkedTool(self.view)
         layout.addWidget(self.view, 1)
         self.geometry_shown: Geometry | None = None

@@ -7,11 +7,13 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.background import Background
 from workbench.app.race.contestant_pane import ContestantPane
 from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.view_turns import ViewTurns
 from workbench.app.theme import Theme
+from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.mesh_view import MeshView, box_corners
 
 GAP = 3
@@ -35,6 +37,8 @@ class ViewGrid(QWidget):
         self._wants_fit = True
         self._is_linking = False
         self.turns = ViewTurns(self._draw, self)
+        self._compiling = Background(compile_pictures, self)
+        self._compiling.start()
         self.setMinimumSize(300, 200)
         self.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
         model.started.connect(self._show_mesh)
@@ -73,6 +77,7 @@ class ViewGrid(QWidget):
 
     def close_views(self) -> None:
         self.turns.stop()
+        self._compiling.wait()
         for pane in self.panes:
             pane.view.close_view()
 

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import os
 import time
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any, Protocol
 
+import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the OpenGL classes behind vtkRenderWindow
+from numpy.typing import NDArray
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QImage, QOffscreenSurface, QOpenGLContext, QPainter, QPaintEvent, QTransform
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
@@ -26,15 +29,20 @@ CHOICE = "WORKBENCH_DRAWING"
 """Environment variable: `memory` or `card` decides, anything else leaves it to the program."""
 
 
+Painter = Callable[[int, int], NDArray[np.uint32] | None]
+
+
 class Canvas(Protocol):
     """A widget with one VTK renderer; `drawn` tells that a picture is on its way to the screen.
 
-    `seconds` is what the last drawing took of this thread's time.
+    `seconds` is what the last drawing took of this thread's time. `painter`, where there is one, draws in place of VTK:
+    for a width and a height it returns pixels, rows from below, or None to leave that picture to VTK.
     """
 
     drawn: Any
     renderer: Any
     seconds: float
+    painter: Painter | None
 
     def draw_again(self) -> None: ...
     def draw_now(self) -> None: ...
@@ -59,6 +67,7 @@ class MemoryCanvas(QWidget):
         self._image: QImage | None = None
         self._is_stale = True
         self.seconds = 0.0
+        self.painter: Painter | None = None
 
     def draw_again(self) -> None:
         self._is_stale = True
@@ -88,10 +97,12 @@ class MemoryCanvas(QWidget):
         self.drawn.emit()
 
     def _draw(self, width: int, height: int) -> QImage:
-        self._window.SetSize(width, height)
-        self._window.Render()
-        self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._pixels)
-        memory = vtk_to_numpy(self._pixels)
+        memory = self.painter(width, height) if self.painter is not None else None
+        if memory is None:
+            self._window.SetSize(width, height)
+            self._window.Render()
+            self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._pixels)
+            memory = vtk_to_numpy(self._pixels)
         return QImage(memory.data, width, height, 4 * width, QImage.Format.Format_RGBX8888)
 
     def close_canvas(self) -> None:
@@ -122,6 +133,7 @@ class CardCanvas(QWidget):
         layout.addWidget(self.plotter)
         self.plotter.frameSwapped.connect(self.drawn)
         self.seconds = 0.0  # what the card does goes on beside us
+        self.painter: Painter | None = None  # not asked: the card is quicker
         self._is_closed = False
 
     def draw_again(self) -> None:

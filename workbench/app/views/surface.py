@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.colour_range import ColourRange
@@ -18,6 +18,7 @@ from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import lookup_table, single_colour
 from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
+from workbench.app.views.ghost import Ghost
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
 from workbench.core.arrays import Booleans, Integers
 
@@ -25,6 +26,8 @@ THROUGH = 2e4
 """Nearer to the eye than all that is drawn otherwise: inverted tetrahedra are seen through those in front of them."""
 EDGES_UP_TO = 12_000
 """Triangles up to which their edges are drawn unasked."""
+MAP_SCALARS = 1
+"""VTK_COLOR_MODE_MAP_SCALARS, which Python does not name."""
 
 
 class Surface:
@@ -58,7 +61,8 @@ class Surface:
         self._cut.SetPoints(geometry.vtk_points)
         self._cut_actor = line_actor(self._cut, CUT, 3.0, nearer=12.0)
         self._brush = BrushMark(geometry)
-        self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors)
+        self.ghost = Ghost(geometry, theme)
+        self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors, self.ghost.actor)
         self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
         self.show_plain()
 
@@ -96,6 +100,7 @@ class Surface:
 
     def set_theme(self, theme: Theme) -> None:
         self._theme = theme
+        self.ghost.set_theme(theme)
         self._actor.GetProperty().SetEdgeColor(*theme.edges)
         if self._pattern is not None:
             self.show_pattern(self._pattern)
@@ -170,6 +175,15 @@ class Surface:
             self._values[inverted if owners is None else inverted[owners]] = np.nan
         self._scalars.Modified()
         self._show_inverted(np.flatnonzero(inverted))
+
+    def flat_colours(self) -> NDArray[np.uint32] | None:
+        """Colour of each triangle (m,), packed; None where more is shown than flat triangles in a colour each."""
+        is_plain = self.geometry.is_flat and not self.has_edges and not self.has_texture
+        if not is_plain or any(actor.GetVisibility() for actor in self.actors[1:]):
+            return None
+        colours = self._mapper.GetLookupTable().MapScalars(self._scalars, MAP_SCALARS, 0)
+        packed: NDArray[np.uint32] = vtk_to_numpy(colours).view(np.uint32)[:, 0]
+        return packed
 
     # ------------------------------------------------------------------------------------------ lines
 
