@@ -24,6 +24,8 @@ FIX_LABELS = {
     "unreferenced": "Remove unreferenced vertices",
     "seams": "Cut along the texture seams",
     "cut": "Cut open to a disc",
+    "linearise": "Make the elements linear",
+    "tets": "Read its faces as tetrahedra",
 }
 
 

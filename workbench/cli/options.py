@@ -7,7 +7,7 @@ import math
 
 from workbench.cli.settings import add_set_option
 
-FIXES = ("reorient", "largest", "unreferenced", "seams", "cut")
+FIXES = ("reorient", "largest", "unreferenced", "seams", "cut", "linearise", "tets")
 KINDS = ("auto", "plane", "parameterize", "volume")
 
 
@@ -60,7 +60,7 @@ def add_source_options(parser: argparse.ArgumentParser) -> None:
         action="extend",
         default=[],
         metavar="FIX,...",
-        help=f"mend the mesh first, in the order given: {', '.join(FIXES)}",
+        help=f"mend the mesh first, in the order given: {', '.join(FIXES)} (as --tets)",
     )
     parser.add_argument("--tets", action="store_true", help="read faces of four corners as tetrahedra")
 

@@ -12,8 +12,8 @@ from workbench.core.fixes import apply_fixes
 from workbench.core.kinds import resolve_kind, source_for_kind
 from workbench.core.mesh import Mesh
 from workbench.engine.starts import adjusted_start
-from workbench.io.opening import SAMPLE, map_from_file, open_source
-from workbench.io.read import read_mesh
+from workbench.io.opening import map_from_file, read_source
+from workbench.io.reading_fixes import split_fixes
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,13 +38,13 @@ def open_map(
     A map is measured on any mesh, a disc or not; where texture coordinates are the map, their seams are part of it.
     Raises `WorkbenchError` for files that cannot be used, `MeshError` where there is no map.
     """
-    is_sample = source.startswith(SAMPLE)
-    file = open_source(source).file if is_sample else read_mesh(source, tets=tets)
+    reading, others = split_fixes(fixes)
+    file = read_source(source, **{"tets": tets, **reading})
     holds_map = file.map_positions is not None or file.mesh.texture is not None
     if target is None and not holds_map:
         raise MeshError(f"{source} holds no map (vt of an OBJ, X or X0 of a case); name a second file that does.")
-    fixes = fixes or ("unreferenced", *(("seams",) if target is None else ()))
-    fixed = apply_fixes(file.mesh, fixes).mesh
+    others = others or ("unreferenced", *(("seams",) if target is None else ()))
+    fixed = apply_fixes(file.mesh, others).mesh
     found = resolve_kind(fixed, kind)
     mesh = source_for_kind(fixed, found)
     positions = map_from_file(target or source, mesh, found)

@@ -40,6 +40,7 @@ def read_npz(path: Path, data: bytes) -> CaseParts:
                 f"and this file has {', '.join(sorted(arrays)) or 'nothing'}."
             )
     simplices = whole_numbers(path, "S", arrays["S"])
+    _check_base(path, "S", simplices, len(np.atleast_1d(arrays["V"])), 0)
     return _case(path, finite_rows(path, "V", arrays["V"], None, (2, 3)), simplices, arrays)
 
 
@@ -53,9 +54,23 @@ def read_mat(path: Path, data: bytes) -> CaseParts:
             f"this one has {', '.join(sorted(arrays)) or 'none of them'}."
         )
     simplices = whole_numbers(path, name, arrays[name]) - 1
+    _check_base(path, name, simplices, len(arrays["V"]), 1)
     vertices = finite_rows(path, "V", arrays["V"], None, (2, 3))
     known = {"X0": arrays["fV"]} if "fV" in arrays else {}
     return _case(path, vertices, simplices, known)
+
+
+def _check_base(path: Path, name: str, simplices: Integers, count: int, base: int) -> None:
+    """Raises `MeshError` for indices that seem to be counted from the other of 0 and 1."""
+    if not simplices.size:
+        return
+    low, high = int(simplices.min()), int(simplices.max())
+    beyond = high if high == count and low >= 1 else low if low == -1 and high < count else None
+    if beyond is not None:
+        raise MeshError(
+            f"{path}: {name} names vertex {beyond} (from 0) of {count}: its indices seem to be counted from {1 - base}, "
+            f"and here they count from {base}; {'add 1 to' if base else 'subtract 1 from'} them."
+        )
 
 
 def npz_arrays(path: Path, data: bytes) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import contextlib
 import importlib
 import io
 import re
+import tempfile
 import warnings
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ import numpy as np
 from workbench.core.arrays import Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
+from workbench.io.linear_elements import Blocks, is_of_higher_order, linear_blocks, without_inner_vertices
 from workbench.io.memory_limit import limited_memory
 from workbench.io.mesh_file import mesh_of_file
 from workbench.io.polygons import fan
@@ -35,27 +37,54 @@ FORMATS = {
 
 FLAT_CELLS = ("triangle", "quad", "polygon")
 IGNORED_CELLS = ("vertex", "line", "line3")
+ENTITIES = re.compile(rb"\$Entities\b.*?\$EndEntities\s*", re.DOTALL)
+"""The part of a Gmsh file that says which groups its parts are in."""
 
 
-def read_foreign(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
-    """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes."""
+def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[Mesh, tuple[str, ...]]:
+    """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes.
+
+    With `linearise`, elements of higher order become linear ones on their corners; their other vertices are dropped.
+    """
     module, name = FORMATS[path.suffix.lower()]
     if name == "PLY":
         _check_ply_counts(path, data)
-    content: Any = None
-    with silenced(), np.errstate(all="ignore"), limited_memory(len(data)):
+    content = _read(path, str(path), module, len(data))
+    if content is None and name == "Gmsh" and ENTITIES.search(data):
+        # meshio refuses files of which some parts are in physical groups and some are not: read it without the groups
+        with tempfile.TemporaryDirectory() as folder:
+            plain = Path(folder) / path.name
+            plain.write_bytes(ENTITIES.sub(b"", data, count=1))
+            content = _read(path, str(plain), module, len(data))
+    if content is None:
+        raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
+    points, blocks, regions = content
+    if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
+        raise MeshError(f"{path}: there are no vertices in it.")
+    blocks, inner = linear_blocks(blocks) if linearise else (blocks, np.empty(0, dtype=np.int64))
+    mesh, notes = _mesh_of_blocks(path, points, blocks)
+    if len(inner):
+        mesh, note = without_inner_vertices(mesh, inner)
+        notes = (note, *notes)
+    if regions > 1:
+        notes += (f"The {regions} regions that the file marks were taken as one mesh.",)
+    return mesh, notes
+
+
+def _read(path: Path, place: str, module: str, size: int) -> tuple[Any, Blocks, int] | None:
+    """Points, elements and the count of regions of the file at `place`; None where meshio cannot read it."""
+    with silenced(), np.errstate(all="ignore"), limited_memory(size):
         try:
-            content = importlib.import_module(f"meshio.{module}").read(str(path))
-            points = np.asarray(content.points)
+            content = importlib.import_module(f"meshio.{module}").read(place)
             blocks = [(str(block.type), block.data) for block in content.cells]
+            return np.asarray(content.points), blocks, _region_count(content)
         except MemoryError:
             raise MeshError(f"{path}: it asks for far more memory than its size warrants; a number in it is damaged.") from None
         except (Exception, SystemExit):
-            pass
-    if content is None:
-        raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
-    if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
-        raise MeshError(f"{path}: there are no vertices in it.")
+            return None
+
+
+def _mesh_of_blocks(path: Path, points: Any, blocks: Blocks) -> tuple[Mesh, tuple[str, ...]]:
     kinds = {kind for kind, data in blocks if len(data)}
     _refuse_unknown(path, kinds)
     if "tetra" in kinds:
@@ -87,11 +116,12 @@ def silenced() -> Any:
 
 def _refuse_unknown(path: Path, kinds: set[str]) -> None:
     known = {*FLAT_CELLS, *IGNORED_CELLS, "tetra"}
-    higher = sorted(kind for kind in kinds - known if kind.rstrip("0123456789") in ("triangle", "quad", "tetra"))
+    higher = sorted(kind for kind in kinds - known if is_of_higher_order(kind))
     if higher:
         raise MeshError(
             f"{path}: it holds elements of higher order ({', '.join(higher)}), and maps are linear on each simplex; "
-            f"export the mesh with linear elements (order 1)."
+            f"export the mesh with linear elements (order 1), or take their corners alone, apply --fix linearise.",
+            fixes=("linearise",),
         )
     if "tetra" not in kinds and not kinds & set(FLAT_CELLS):
         found = ", ".join(sorted(kinds)) or "none"
@@ -101,7 +131,18 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
         raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")
 
 
-def _surface(path: Path, points: Any, blocks: list[tuple[str, Any]]) -> tuple[Mesh, tuple[str, ...]]:
+def _region_count(content: Any) -> int:
+    """How many different regions the tetrahedra are marked with; 0 where they are not marked."""
+    marks = [
+        np.asarray(values)
+        for name in ("gmsh:physical", "medit:ref", "RegionId", "MaterialIds")
+        for block, values in zip(content.cells, content.cell_data.get(name, ()), strict=False)
+        if str(block.type).startswith("tetra") and len(block.data)
+    ]
+    return len(np.unique(np.concatenate(marks))) if marks else 0
+
+
+def _surface(path: Path, points: Any, blocks: Blocks) -> tuple[Mesh, tuple[str, ...]]:
     faces: list[list[int]] = []
     tables = []
     for _, data in blocks:

@@ -18,12 +18,14 @@ from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.io.mesh_file import MeshFile
 from workbench.io.read import read_mesh
+from workbench.io.reading_fixes import split_fixes
 from workbench.io.start_file import fit_dimension, map_from_file
 
 __all__ = ["SAMPLE", "OpenedSource", "UnsuitableSourceError", "map_from_file", "open_source", "read_source"]
 
 SAMPLE = "sample:"
 """What the name of a sample begins with."""
+TETRAHEDRA_IN_DISGUISE = "Its faces have four corners each and seem to be tetrahedra; read them as such, apply --fix tets."
 
 
 class UnsuitableSourceError(MeshError):
@@ -76,15 +78,19 @@ def open_source(source: str, *, kind: str = "auto", fixes: Sequence[str] = (), t
     fixes that would help.
     """
     source = str(source)
-    file = read_source(source, tets=tets)
-    fixed = apply_fixes(file.mesh, fixes)
+    reading, others = split_fixes(fixes)
+    file = read_source(source, **{"tets": tets, **reading})
+    fixed = apply_fixes(file.mesh, others)
     notes = (*file.notes, *fixed.notes)
     lines = (*report_lines(fixed.mesh), *notes)
     try:
         resolved = resolve_kind(fixed.mesh, kind)
         check_for_kind(fixed.mesh, resolved)
     except MeshError as error:
-        raise _rebuild_unsuitable(f"{source}: {error.sentence}", error.fixes, lines) from None
+        sentence, helpful = error.sentence, error.fixes
+        if "tets" not in reading and not tets and looks_like_tetrahedra(file):
+            sentence, helpful = TETRAHEDRA_IN_DISGUISE, ("tets",)
+        raise _rebuild_unsuitable(f"{source}: {sentence}", helpful, lines) from None
     mesh = source_for_kind(fixed.mesh, resolved)
     start, anchors, targets, note = _given_map(file, mesh, resolved)
     if note:
@@ -108,9 +114,20 @@ def _given_map(file: MeshFile, mesh: Mesh, kind: Kind) -> tuple[Floats | None, I
     return start, file.anchor_vertices, targets, ""
 
 
-def read_source(source: str, *, tets: bool = False) -> MeshFile:
-    """What a file, or `sample:ID`, holds, whatever it may be used for. Raises `MeshError`."""
-    return _sample(source.removeprefix(SAMPLE)) if source.startswith(SAMPLE) else read_mesh(source, tets=tets)
+def read_source(source: str, **options: bool) -> MeshFile:
+    """What a file, or `sample:ID`, holds, whatever it may be used for. Raises `MeshError`.
+
+    `options` are those of `read_mesh`.
+    """
+    return _sample(source.removeprefix(SAMPLE)) if source.startswith(SAMPLE) else read_mesh(source, **options)
+
+
+def looks_like_tetrahedra(file: MeshFile) -> bool:
+    """Whether the faces of four corners of an OBJ seem to be tetrahedra: more than two of them meet in an edge."""
+    mesh = file.mesh
+    if mesh.polygons is None or file.format != "OBJ" or 2 * (int(mesh.polygons.max()) + 1) != mesh.simplex_count:
+        return False
+    return bool(len(mesh.topology.nonmanifold_edges))
 
 
 def _sample(name: str) -> MeshFile:

@@ -22,13 +22,14 @@ READABLE = (".obj", ".off", ".stl", *foreign.FORMATS, ".npz", ".mat")
 """Endings of the files that can be read."""
 
 
-def read_mesh(path: str | os.PathLike[str], *, tets: bool = False) -> MeshFile:
+def read_mesh(path: str | os.PathLike[str], *, tets: bool = False, linearise: bool = False) -> MeshFile:
     """The mesh in a file, with its start and anchors where it is a case.
 
     Parameters
     ----------
     path : str or path     the ending tells the format: see `READABLE`
     tets : bool            take the faces of four corners of an OBJ as tetrahedra
+    linearise : bool       make elements of higher order linear: their corners alone
 
     Raises `MeshError` with a sentence for whatever is wrong with the file: it never ends the program or prints.
     """
@@ -47,7 +48,7 @@ def read_mesh(path: str | os.PathLike[str], *, tets: bool = False) -> MeshFile:
             mesh, notes = read_stl(path, data)
             return MeshFile(mesh, str(path), "STL", digest, notes=notes)
         if ending in foreign.FORMATS:
-            mesh, notes = foreign.read_foreign(path, data)
+            mesh, notes = foreign.read_foreign(path, data, linearise=linearise)
             return MeshFile(mesh, str(path), foreign.FORMATS[ending][1], digest, notes=notes)
         if ending == ".npz":
             return _case_file(read_npz(path, data), path, "case (npz)", digest)

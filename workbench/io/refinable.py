@@ -18,6 +18,7 @@ from workbench.core.method import Kind
 from workbench.core.refine import Refined
 from workbench.io.mesh_file import MeshFile
 from workbench.io.opening import read_source
+from workbench.io.reading_fixes import split_fixes
 from workbench.io.start_file import fit_dimension, map_from_file
 from workbench.io.write import write_case, write_map, write_mesh
 
@@ -74,8 +75,9 @@ def open_refinable(
 
     Raises `WorkbenchError` for what cannot be read, or a target that does not fit.
     """
-    file = read_source(source, tets=tets)
-    fixed = apply_fixes(file.mesh, fixes)
+    reading, others = split_fixes(fixes)
+    file = read_source(source, **{"tets": tets, **reading})
+    fixed = apply_fixes(file.mesh, others)
     mesh, notes = fixed.mesh, [*file.notes, *fixed.notes]
     resolved = resolve_kind(mesh, kind)
     if mesh.polygons is not None:
@@ -102,9 +104,7 @@ def check_refined_place(path: str | os.PathLike[str], given: Refinable) -> None:
     """Raises `WorkbenchError` where the format of `path` cannot hold what was read."""
     ending = Path(path).suffix.lower()
     if ending not in REFINED_ENDINGS:
-        raise WorkbenchError(
-            f"{path}: refinements are written as {', '.join(REFINED_ENDINGS)}; choose one of these endings."
-        )
+        raise WorkbenchError(f"{path}: refinements are written as {', '.join(REFINED_ENDINGS)}; choose one of these endings.")
     if ending == ".obj" and given.positions is not None and given.positions.shape[1] != 2:
         raise WorkbenchError(f"{path}: OBJ holds no source beside a map into space; write .npz or .vtu.")
 

@@ -42,7 +42,7 @@ def map_from_file(path: str | os.PathLike[str], mesh: Mesh, kind: Kind) -> Float
     bare = _bare_positions(path)
     if bare is not None:
         return fit_dimension(path, _on_vertices(path, bare, mesh), mesh, kind)
-    found = read_mesh(path, tets=kind == "volume")
+    found = read_mesh(path, tets=kind == "volume", linearise=True)
     if found.map_positions is not None:
         return fit_dimension(path, _on_vertices(path, found.map_positions, mesh), mesh, kind)
     if kind != "volume" and found.mesh.texture is not None and (kind == "parameterize" or _same_places(found, mesh)):
