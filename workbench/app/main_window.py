@@ -39,6 +39,8 @@ from workbench.app.switches import Switches
 from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
+from workbench.app.volumes.look_tools import LookTools
+from workbench.app.volumes.volume_view import VolumeView
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
 TARGET_STYLES = {"plain": "Plain"}
@@ -78,9 +80,11 @@ class MainWindow(QMainWindow):
         self._make_status()
         self.turns = PanelTurns()
         self.colouring = Colouring(self.document, self.quantities, (self.source, self.target), (*self.maps, self.histogram))
+        self.volume = VolumeView(self.document, self.quantities, self.brush)
         self.presenter = Presenter(
-            self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush
+            self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush, self.volume
         )
+        self.look = LookTools(self.volume, self.quantities, self.source, self.target, [dock.view for dock in self.maps])
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
         self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
@@ -290,6 +294,7 @@ class MainWindow(QMainWindow):
             self.settings.sync()
             self.turns.stop()
             self.presenter.stop()
+            self.look.stop()
             self.reporter.stop()
             self.source_tool.let_go()
             self.target_tool.let_go()

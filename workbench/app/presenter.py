@@ -13,9 +13,11 @@ from workbench.app.document import Document
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.brush_mark import BrushedParts
-from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
+from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import DisplayFrame, Geometry
+from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane
+from workbench.app.volumes.volume_view import VolumeView
 from workbench.core.arrays import Floats
 
 EMPTY = "Open a mesh with Ctrl+O, choose a sample in the File menu, or drop a file here."
@@ -38,10 +40,12 @@ class Presenter(QObject):
         colouring: Colouring,
         turns: PanelTurns,
         brush: SimplexBrush,
+        volume: VolumeView,
     ) -> None:
         super().__init__()
         self._document = document
         self._brush = brush
+        self._volume = volume
         self._panes = (source, target)
         self.source = source.view
         self.target = target.view
@@ -66,6 +70,7 @@ class Presenter(QObject):
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         brush.changed.connect(self._show_brush)
+        volume.changed.connect(self._look_again)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         self.clear()
@@ -86,7 +91,8 @@ class Presenter(QObject):
         assert loaded is not None
         self.clear()
         self._brush.clear()
-        self._faces = drawn_faces(loaded.mesh.simplices, loaded.neighbours)
+        self._volume.begin()
+        self._faces = self._volume.faces()
         self._brushable = BrushedParts(self._faces)
         geometry = Geometry(loaded.mesh.vertices, loaded.mesh.simplices, self._faces)
         surface = self.source.show_geometry(geometry)
@@ -126,6 +132,7 @@ class Presenter(QObject):
         is_first = self._target_geometry is None
         geometry = self._target_geometry or self._begin_target(snapshot.positions)
         geometry.write(snapshot.positions)
+        self._show_faces()
         self.target.points_changed()
         self._colouring.take(snapshot)
         self._colouring.paint(self._panes[1])
@@ -138,11 +145,44 @@ class Presenter(QObject):
             # whoever moves anchors wants the picture to stand still
             self.target.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
         self._fits_next = False
+        self._draw_soon()
+        self.picture_sent.emit(snapshot.anchor_serial)
+
+    @property
+    def _views(self) -> tuple[MeshView, ...]:
+        return (self.source, self.target, *(dock.view for dock in self._maps))
+
+    def _show_faces(self) -> bool:
+        """Draw what the look into a solid leaves of it; whether that is something else than before."""
+        faces = self._volume.faces()
+        if faces is self._faces:
+            return False
+        self._faces, self._brushable = faces, BrushedParts(faces)
+        for geometry in (self.source.geometry_shown, self._target_geometry):
+            if geometry is not None:
+                geometry.show_faces(faces)
+        for view in self._views:
+            view.faces_changed()
+        self._mark_brushed()
+        return True
+
+    def _look_again(self) -> None:
+        """A solid is looked at in another way."""
+        solid, look = self._volume.solid, self._volume.look
+        self._show_faces()
+        shell = None if solid is None or look.is_whole else solid.boundary.triangles
+        for view in self._views:
+            if view.surface is not None:
+                view.surface.ghost.show(shell, look.ghost)
+        self._draw_source()
+        self._draw_soon()
+
+    def _draw_soon(self) -> None:
+        """The target now, the panels after it."""
         self.target.refresh()
         self._turns.take_map()
         if not self.target.is_shown():
             self._turns.main_is_drawn()  # there is nothing to wait for
-        self.picture_sent.emit(snapshot.anchor_serial)
 
     def _draw_source(self) -> None:
         """The source changes with the map where it carries its texture, inverted triangles or marks."""
@@ -177,16 +217,16 @@ class Presenter(QObject):
 
     def _show_brush(self) -> None:
         """Mark the brushed simplices in every view; the panels follow the target in turns."""
-        if self._brushable is None:
-            return
+        if self._brushable is not None:
+            self._mark_brushed()
+            self._draw_soon()
+
+    def _mark_brushed(self) -> None:
+        assert self._brushable is not None
         part = self._brushable.part(self._brush.simplices)
-        for view in (self.source, self.target, *(dock.view for dock in self._maps)):
+        for view in self._views:
             if view.surface is not None:
                 view.surface.show_brushed(part)
-        self.target.refresh()
-        self._turns.take_map()
-        if not self.target.is_shown():
-            self._turns.main_is_drawn()
 
     def stop(self) -> None:
         self._late_marks.stop()

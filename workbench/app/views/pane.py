@@ -54,6 +54,10 @@ class ViewPane(QWidget):
         self.legend.hide()
         self._layout.addWidget(self.legend)
 
+    def add_tools(self, tools: QWidget) -> None:
+        """Put a row of controls between the title and the view."""
+        self._layout.insertWidget(1, tools)
+
     def offers(self, style: str) -> bool:
         """Whether a pattern is one of this view's."""
         return style in self._styles

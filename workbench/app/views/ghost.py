@@ -1,0 +1,45 @@
+"""The boundary of a solid as a veil round what is left of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from workbench.app.theme import Theme
+from workbench.app.views.actors import actor_of, cells, mapper_of
+from workbench.app.views.geometry import Geometry
+from workbench.core.arrays import Integers
+
+
+class Ghost:
+    """Triangles between the vertices of one `Geometry`, seen through; hidden at first."""
+
+    def __init__(self, geometry: Geometry, theme: Theme) -> None:
+        self._polydata = vtkPolyData()
+        self._polydata.SetPoints(geometry.vtk_points)
+        self._shown: Integers | None = None
+        mapper = mapper_of(self._polydata)
+        mapper.ScalarVisibilityOff()
+        self.actor: Any = actor_of(mapper)
+        self.actor.PickableOff()
+        style = self.actor.GetProperty()
+        style.SetInterpolationToFlat()
+        style.SetAmbient(0.5)
+        style.SetDiffuse(0.5)
+        style.BackfaceCullingOn()  # one layer of the veil, not two
+        self.set_theme(theme)
+        self.show(None, 0.0)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.actor.GetProperty().SetColor(*theme.edges)
+
+    def show(self, triangles: Integers | None, opacity: float) -> None:
+        """Draw these triangles (k, 3), facing outwards; None draws none."""
+        self.actor.SetVisibility(triangles is not None and opacity > 0)
+        if triangles is None:
+            return
+        if triangles is not self._shown:
+            self._shown = triangles
+            self._polydata.SetPolys(cells(triangles))
+        self.actor.GetProperty().SetOpacity(opacity)

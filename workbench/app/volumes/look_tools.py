@@ -1,0 +1,44 @@
+"""Everything with which a hand looks into a solid, put into the window: controls, handle of the plane, linked cameras."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from workbench.app.quantity_book import QuantityBook
+from workbench.app.views.mesh_view import MeshView
+from workbench.app.views.pane import ViewPane
+from workbench.app.volumes.linked_views import LinkedViews
+from workbench.app.volumes.look import AXES, Direction
+from workbench.app.volumes.plane_handle import PlaneHandle
+from workbench.app.volumes.tools import CutTools, PeelTools
+from workbench.app.volumes.volume_view import VolumeView
+
+
+class LookTools:
+    """Made once by the window; all of it is hidden while there is no solid."""
+
+    def __init__(
+        self, volume: VolumeView, book: QuantityBook, source: ViewPane, target: ViewPane, panels: Sequence[MeshView]
+    ) -> None:
+        self._volume = volume
+        self._eye = source.view
+        self.cut = CutTools(volume, self.cut_along, source)
+        self.peel = PeelTools(volume, book, target)
+        source.add_tools(self.cut)
+        target.add_tools(self.peel)
+        self.handles = [PlaneHandle(source.view, volume, of_target=False), PlaneHandle(target.view, volume, of_target=True)]
+        self.linked = LinkedViews([source.view, target.view], panels, lambda: volume.is_on)
+
+    def cut_along(self, name: str) -> None:
+        """Cut across an axis, or across the line of sight (`view`), so that the section faces the eye; empty: no plane."""
+        if not name:
+            self._volume.choose(is_cut=False)
+            return
+        sight = self._eye.camera.axes[2]
+        normal: Direction = AXES[name] if name in AXES else tuple(float(c) for c in sight)  # type: ignore[assignment]
+        self._volume.choose(is_cut=True, normal=normal, is_flipped=bool(np.dot(normal, sight) < 0))
+
+    def stop(self) -> None:
+        self.linked.stop()

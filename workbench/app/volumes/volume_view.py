@@ -1,0 +1,134 @@
+"""How the solid of a document is looked at, now: the look, what it needs of each map, what is drawn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.document import Document
+from workbench.app.quantities import IN_FORCE
+from workbench.app.quantity_book import QuantityBook
+from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
+from workbench.app.volumes.look import VolumeLook
+from workbench.app.volumes.solid import Solid
+
+OWNER = "peel"
+"""Name under which the quantity to peel by is watched."""
+
+
+class VolumeView(QObject):
+    """One look for all views of the window; `changed` tells that it is another one, `opened` that there is another mesh."""
+
+    changed = Signal()
+    opened = Signal()
+
+    def __init__(self, document: Document, book: QuantityBook, brush: SimplexBrush) -> None:
+        super().__init__()
+        self._document = document
+        self._book = book
+        self._brush = brush
+        self.look = VolumeLook()
+        self.solid: Solid | None = None
+        self.peel_by = IN_FORCE.id
+        self.peeled = 0.0
+        self._waits_for_values = False
+        self._drawn: DrawnFaces | None = None
+        self._drawn_for: tuple[object, ...] = ()
+        document.snapshot_taken.connect(self._peel_when_known)
+        brush.changed.connect(self._brushed)
+        book.listed.connect(self._watch)
+
+    @property
+    def is_on(self) -> bool:
+        """Whether there is a solid to look into."""
+        return self.solid is not None
+
+    # ------------------------------------------------------------------------------------------ what is drawn
+
+    def begin(self) -> None:
+        """Another mesh: its solid is whole at first."""
+        loaded = self._document.loaded
+        assert loaded is not None
+        is_solid = loaded.mesh.dimension == 3
+        self.solid = Solid(loaded.mesh, loaded.neighbours) if is_solid else None
+        self._drawn = None if is_solid else drawn_faces(loaded.mesh.simplices)
+        self._drawn_for = ()
+        self.look = self.look.whole()
+        self.peeled = 0.0
+        self._waits_for_values = False
+        self._watch()
+        self.opened.emit()
+
+    def faces(self) -> DrawnFaces:
+        """What is drawn of the newest map; the same object while nothing else is to be seen."""
+        if self.solid is not None:
+            snapshot = self._document.snapshot
+            number = snapshot.number if snapshot is not None and self.look.follows_map else -1
+            marked = self._brush.simplices if self.look.only_marked else None
+            needed = (replace(self.look, ghost=0.0), number, marked if marked is None else marked.tobytes())
+            if needed != self._drawn_for or self._drawn is None:
+                self._drawn_for = needed
+                self._drawn = self.solid.faces(self.look, self._document.positions, self.values(), marked)
+        assert self._drawn is not None
+        return self._drawn
+
+    def values(self) -> NDArray[Any] | None:
+        """The quantity to peel by, where the newest map carries it: (m,) float32."""
+        snapshot = self._document.snapshot
+        if snapshot is None or self.peel_by not in self._book:
+            return None
+        found = snapshot.fields.get(self._book[self.peel_by].field)
+        return found if isinstance(found, np.ndarray) else None
+
+    # ------------------------------------------------------------------------------------------ choices
+
+    def choose(self, **changes: Any) -> None:
+        """Look in another way: fields of `VolumeLook`."""
+        look = replace(self.look, **changes)
+        if look != self.look:
+            self.look = look
+            self.changed.emit()
+
+    def show_all(self) -> None:
+        """Neither cut, peeled nor pulled apart."""
+        self.peeled = 0.0
+        self._watch()
+        self.choose(is_cut=False, threshold=None, only_marked=False, spread=0.0)
+
+    def peel(self, share: float) -> None:
+        """Take away this share of the tetrahedra, those with least of the quantity; the value found so is held from then on."""
+        self.peeled = min(max(share, 0.0), 1.0)
+        self._waits_for_values = self.peeled > 0
+        self._watch()
+        if self.peeled > 0:
+            self._peel_when_known()
+        else:
+            self.choose(threshold=None)
+
+    def peel_by_quantity(self, id: str) -> None:
+        """Peel by another quantity: the same share goes."""
+        self.peel_by = id
+        self.peel(self.peeled)
+
+    def _peel_when_known(self) -> None:
+        values = self.values()
+        if not self._waits_for_values or values is None:
+            return
+        self._waits_for_values = False
+        finite = values[np.isfinite(values)]
+        if len(finite):
+            self.choose(threshold=float(np.quantile(finite, min(self.peeled, 1.0 - 1.0 / len(finite)))))
+
+    def _watch(self) -> None:
+        """Ask for the quantity to peel by while it is needed."""
+        wanted = self.is_on and self.peeled > 0 and self.peel_by in self._book
+        self._document.watch(OWNER, [self._book[self.peel_by]] if wanted else [])
+
+    def _brushed(self) -> None:
+        if self.look.only_marked and self.is_on:
+            self.changed.emit()
