@@ -11,6 +11,8 @@ from workbench.core.arrays import Floats, Integers
 
 LARGEST_TURN = 0.3
 """Radians that a group turns in one step: straight paths of a larger turn would shrink the group visibly."""
+HALF_TURN = 1e-6
+"""Radians from half a turn within which both ways round count as equally long."""
 
 
 def anchor_groups(simplices: Integers, anchored: Integers) -> list[Integers]:
@@ -59,6 +61,8 @@ def _turned(current: Floats, targets: Floats) -> Floats:
     angle = float(np.linalg.norm(vector))
     if angle <= LARGEST_TURN:
         return targets
+    if angle > np.pi - HALF_TURN and vector[np.abs(vector) > HALF_TURN][0] < 0.0:
+        vector = -vector  # rounding would choose the way round: always the axis whose first coordinate is positive
     part = LARGEST_TURN / angle
     d = current.shape[1]
     p, q = _in_space(current), _in_space(targets)
