@@ -161,25 +161,6 @@ def test_three_triangles_at_an_edge_cannot_all_be_apart() -> None:
     assert verdict.edges.tolist() == [[0, 1]]
 
 
-def test_tetrahedra(cube: Mesh) -> None:
-    assert local_injectivity(cube, cube.vertices).holds is True
-    whole = global_injectivity(cube, cube.vertices)
-    assert whole.holds is None
-    assert whole.reason
-    positions = cube.vertices.copy()
-    positions[13] += (0.9, 0.0, 0.0)
-    assert global_injectivity(cube, positions).holds is False
-    # six wedges round one edge that wind twice
-    angle = np.arange(7) * 2.0 * np.pi / 7.0
-    ring = np.stack([np.cos(angle), np.sin(angle), np.full(7, 0.5)], axis=1)
-    vertices = np.vstack([[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], ring])
-    star = Mesh(vertices, [(0, 2 + i, 2 + (i + 1) % 7, 1) for i in range(7)])
-    wound = vertices.copy()
-    wound[2:, :2] = np.stack([np.cos(2.0 * angle), np.sin(2.0 * angle)], axis=1)
-    assert (orientation_signs(star, wound) == 1).all()
-    assert local_injectivity(star, wound).edges.tolist() == [[0, 1]]
-
-
 def test_positions_that_are_not_finite_are_refused(square: Mesh) -> None:
     positions = square.vertices.copy()
     positions[3, 1] = np.nan

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,34 +10,9 @@ from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.mesh import Mesh
 from workbench.core.predicates import orientation, orientation_3d, rays_coincide, segments_meet
 from workbench.core.segment_pairs import box_pairs
-from workbench.core.vertex_stars import overlapping_edges_3d, overlapping_stars
-
-_NONE = np.empty(0, dtype=np.int64)
-_NO_PAIRS = np.empty((0, 2, 2), dtype=np.int64)
-
-
-@dataclass(frozen=True, eq=False)
-class Verdict:
-    """Whether a map is injective, why not, and what is to blame.
-
-    Parameters
-    ----------
-    holds : bool or None                  None where it cannot be told
-    reason : str                          one sentence
-    inverted : (k,) int64                 simplices that are turned over, compared with the source
-    degenerate : (k,) int64               simplices of exactly no area or volume
-    vertices : (k,) int64                 vertices whose star overlaps itself
-    edges : (k, 2) int64                  with two triangles on one side, or wound round more than once by tetrahedra
-    boundary_pairs : (k, 2, 2) int64      pairs of boundary edges that meet wrongly
-    """
-
-    holds: bool | None
-    reason: str
-    inverted: Integers = field(default_factory=lambda: _NONE)
-    degenerate: Integers = field(default_factory=lambda: _NONE)
-    vertices: Integers = field(default_factory=lambda: _NONE)
-    edges: Integers = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
-    boundary_pairs: Integers = field(default_factory=lambda: _NO_PAIRS)
+from workbench.core.solid_injectivity import boundary_of_solid, stars_of_solid
+from workbench.core.verdict import Verdict
+from workbench.core.vertex_stars import overlapping_stars
 
 
 def orientation_signs(mesh: Mesh, positions: Floats) -> Integers:
@@ -58,8 +33,7 @@ def local_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
 
     All simplices have one orientation, no two lie on the same side of a shared edge, the star of every inner vertex
     winds round it exactly once (Fig. 13), and the star of no boundary vertex overlaps itself. A map that is mirrored as
-    a whole passes, with a remark; its simplices are listed as inverted. For tetrahedra the stars of edges are tested
-    in floating point, those of boundary vertices not at all.
+    a whole passes, with a remark; its simplices are listed as inverted. For tetrahedra see `stars_of_solid`.
 
     Parameters
     ----------
@@ -73,36 +47,31 @@ def local_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
     is_mirrored = len(inverted) == mesh.simplex_count
     if len(degenerate) or (len(inverted) and not is_mirrored):
         return Verdict(False, _turned_sentence(mesh, inverted, degenerate), inverted, degenerate)
-    mirrored = " The map is mirrored as a whole." if is_mirrored else ""
+    upright = _upright(mesh, positions)
+    return _remarked(stars_of_solid(mesh, upright, positions) if mesh.dimension == 3 else _stars(upright, positions), inverted)
 
-    if mesh.dimension == 3:
-        edges = overlapping_edges_3d(mesh, positions)
-        if len(edges):
-            reason = f"The tetrahedra round {len(edges)} edges overlap, first round {_edge(edges[0])}."
-            return Verdict(False, reason + mirrored, inverted, edges=edges)
-        return Verdict(True, "Every tetrahedron and every star of an edge is upright." + mirrored, inverted)
 
-    triangles = _counter_clockwise(mesh, positions)
-    edges, has_twin = match_sides(triangles, mesh.vertex_count)
+def _stars(triangles: Integers, positions: Floats) -> Verdict:
+    """Whether triangles in the plane, all counter-clockwise, are one-to-one near every point."""
+    edges, has_twin = match_sides(triangles, len(positions))
     if len(edges):
         reason = f"Two triangles lie on the same side of {len(edges)} edges, first of {_edge(edges[0])}."
-        return Verdict(False, reason + mirrored, inverted, edges=edges)
+        return Verdict(False, reason, edges=edges)
     vertices = overlapping_stars(triangles, has_twin, positions)
     if len(vertices):
         reason = (
             f"The triangles round {len(vertices)} vertices overlap: they wind more than once, "
             f"first round vertex {vertices[0]} (from 0)."
         )
-        return Verdict(False, reason + mirrored, inverted, vertices=vertices)
-    reason = "Every triangle is upright and every star of a vertex winds once." + mirrored
-    return Verdict(True, reason, inverted)
+        return Verdict(False, reason, vertices=vertices)
+    return Verdict(True, "Every triangle is upright and every star of a vertex winds once.")
 
 
 def global_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
     """Whether the map is one-to-one: positively oriented, and one-to-one on the boundary (Theorem 5.1).
 
-    Boundary edges are compared exactly, over all loops and components; components must not cover each other either.
-    For tetrahedra the verdict is None unless the map is not even locally injective.
+    Boundary edges (triangles) are compared exactly, over all loops and components; components must not cover each other
+    either.
 
     Parameters
     ----------
@@ -111,9 +80,13 @@ def global_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
     local = local_injectivity(mesh, positions)
     if local.holds is False:
         return local
-    if mesh.dimension == 3:
-        return Verdict(None, "Global injectivity of volumes is not tested.", local.inverted)
-    triangles = _counter_clockwise(mesh, positions)
+    upright = _upright(mesh, positions)
+    boundary = boundary_of_solid if mesh.dimension == 3 else _boundary
+    return _remarked(boundary(mesh, upright, positions), local.inverted)
+
+
+def _boundary(mesh: Mesh, triangles: Integers, positions: Floats) -> Verdict:
+    """Whether triangles, all counter-clockwise, are one-to-one on the boundary, and no component covers another."""
     _, has_twin = match_sides(triangles, mesh.vertex_count)
     triangle, corner = np.nonzero(~has_twin)
     edges = np.stack([triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]], axis=1)
@@ -125,14 +98,19 @@ def global_injectivity(mesh: Mesh, positions: Floats) -> Verdict:
             f"The boundary meets itself in {len(pairs)} pairs of edges, "
             f"first {_edge(offenders[0, 0])} and {_edge(offenders[0, 1])}."
         )
-        return Verdict(False, reason, local.inverted, boundary_pairs=offenders)
+        return Verdict(False, reason, boundary_pairs=offenders)
     covered = _covered_component(component, edges, positions)
     if covered >= 0:
         first = int(np.flatnonzero(mesh.topology.components == covered)[0])
         reason = f"The component of triangle {first} (from 0) lies on top of another component."
-        return Verdict(False, reason, local.inverted)
-    mirrored = " The map is mirrored as a whole." if len(local.inverted) else ""
-    return Verdict(True, "Every triangle is upright and the boundary is one-to-one." + mirrored, local.inverted)
+        return Verdict(False, reason)
+    return Verdict(True, "Every triangle is upright and the boundary is one-to-one.")
+
+
+def _remarked(verdict: Verdict, inverted: Integers) -> Verdict:
+    """The verdict on a map whose simplices are all upright, or all `inverted`."""
+    mirrored = " The map is mirrored as a whole." if len(inverted) else ""
+    return replace(verdict, reason=verdict.reason + mirrored, inverted=inverted)
 
 
 def _unfit(mesh: Mesh, positions: Floats) -> str:
@@ -163,10 +141,11 @@ def _signs(positions: Floats, simplices: Integers) -> Integers:
     return orientation(*corners) if len(corners) == 3 else orientation_3d(*corners)
 
 
-def _counter_clockwise(mesh: Mesh, positions: Floats) -> Integers:
-    """Triangles (m, 3) with their corners counter-clockwise in the map."""
-    clockwise = _signs(positions, mesh.simplices) < 0
-    return np.where(clockwise[:, None], mesh.simplices[:, ::-1], mesh.simplices)
+def _upright(mesh: Mesh, positions: Floats) -> Integers:
+    """Simplices with their corners in the order that is positive in the map: counter-clockwise for triangles."""
+    turned = mesh.simplices.copy()
+    turned[:, :2] = mesh.simplices[:, 1::-1]
+    return np.where(_signs(positions, mesh.simplices)[:, None] < 0, turned, mesh.simplices)
 
 
 def match_sides(triangles: Integers, vertex_count: int) -> tuple[Integers, Booleans]:

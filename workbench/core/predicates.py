@@ -7,13 +7,10 @@ from fractions import Fraction
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.exact_orientation import EPSILON, HUGE, TINY, UNSURE, orientation_signs_3d
 
-_EPSILON = 2.0**-53
 # Shewchuk 1997, section 4: the sign of a value below this part of the sum of its absolute products is not sure.
-_BOUND_2D = (3.0 + 16.0 * _EPSILON) * _EPSILON
-_BOUND_3D = (7.0 + 56.0 * _EPSILON) * _EPSILON
-# Where products may have lost digits to underflow, or overflowed, nothing is sure.
-_TINY, _HUGE = 1e-280, 1e290
+_BOUND_2D = (3.0 + 16.0 * EPSILON) * EPSILON
 
 
 def orientation(a: Floats, b: Floats, c: Floats) -> Integers:
@@ -32,7 +29,7 @@ def orientation(a: Floats, b: Floats, c: Floats) -> Integers:
         ax, ay, bx, by = a[:, 0] - c[:, 0], a[:, 1] - c[:, 1], b[:, 0] - c[:, 0], b[:, 1] - c[:, 1]
         left, right = ax * by, ay * bx
         value, size = left - right, np.abs(left) + np.abs(right)
-        is_sure = (np.abs(value) > _BOUND_2D * size) & (size < _HUGE) & (size > _TINY)
+        is_sure = (np.abs(value) > _BOUND_2D * size) & (size < HUGE) & (size > TINY)
     # an exact zero among the differences makes its product exact
     is_sure |= ((ax == 0) | (by == 0)) & ((ay == 0) | (bx == 0))
     is_sure &= np.isfinite(value)
@@ -44,18 +41,9 @@ def orientation(a: Floats, b: Floats, c: Floats) -> Integers:
 
 def orientation_3d(a: Floats, b: Floats, c: Floats, d: Floats) -> Integers:
     """Sign of det(b - a, c - a, d - a) of each tetrahedron, exactly; arguments (k, 3), result (k,) int64."""
-    with np.errstate(over="ignore", invalid="ignore", under="ignore"):
-        u, v, w = b - a, c - a, d - a
-        value = np.zeros(len(a))
-        size = np.zeros(len(a))
-        for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            first, second = v[:, j] * w[:, k], v[:, k] * w[:, j]
-            value += u[:, i] * (first - second)
-            size += np.abs(u[:, i]) * (np.abs(first) + np.abs(second))
-        # twice the bound: the terms are summed in another order than his
-        is_sure = (np.abs(value) > 2.0 * _BOUND_3D * size) & (size < _HUGE) & (size > _TINY)
-    signs = np.sign(np.where(is_sure, value, 0.0)).astype(np.int64)
-    for row in np.flatnonzero(~is_sure):
+    signs = np.empty(len(a), dtype=np.int64)
+    orientation_signs_3d(np.concatenate([a, b, c, d]), signs)
+    for row in np.flatnonzero(signs == UNSURE):
         signs[row] = _exact_sign([a[row], b[row], c[row], d[row]])
     return signs
 

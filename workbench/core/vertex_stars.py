@@ -1,11 +1,10 @@
-"""Stars of vertices and edges that overlap themselves though every simplex is positively oriented (Fig. 13)."""
+"""Stars of vertices in the plane that overlap themselves though every triangle is positively oriented (Fig. 13)."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers
-from workbench.core.mesh import Mesh
 from workbench.core.predicates import orientation
 
 _DOUBTFUL = 1e-6
@@ -52,25 +51,3 @@ def overlapping_stars(triangles: Integers, has_twin: Booleans, positions: Floats
         # less than a full turn: the last side is still to the right of the first
         overlaps[rows] = orientation(positions[rows], positions[start[rows]], positions[end[rows]]) >= 0
     return np.flatnonzero(overlaps)
-
-
-def overlapping_edges_3d(mesh: Mesh, positions: Floats) -> Integers:
-    """Edges (k, 2) round which the dihedral angles of the tetrahedra sum up to more than a full turn (floating point).
-
-    Parameters
-    ----------
-    positions : (n, 3) float64     every tetrahedron of one orientation
-    """
-    keys, angles = [], []
-    for i, j, k, m in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 0, 2), (2, 3, 0, 1)):
-        ends = mesh.simplices[:, [i, j]]
-        a, b = positions[ends[:, 0]], positions[ends[:, 1]]
-        axis = b - a
-        u, v = np.cross(axis, positions[mesh.simplices[:, k]] - a), np.cross(axis, positions[mesh.simplices[:, m]] - a)
-        sine, cosine = np.linalg.norm(np.cross(u, v), axis=1), np.einsum("ij,ij->i", u, v)
-        keys.append(ends.min(axis=1) * mesh.vertex_count + ends.max(axis=1))
-        angles.append(np.arctan2(sine, cosine))
-    unique, inverse = np.unique(np.concatenate(keys), return_inverse=True)
-    total = np.bincount(inverse, np.concatenate(angles))
-    wound = unique[total > 2.0 * np.pi + 1e-3]
-    return np.stack([wound // mesh.vertex_count, wound % mesh.vertex_count], axis=1)
