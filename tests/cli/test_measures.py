@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 
+import meshio
 import numpy as np
 import pytest
 from scipy import stats
@@ -50,7 +51,15 @@ def test_a_row_a_simplex(cli, bent, square: Mesh):
         assert float(row["sigma_1"]) == pytest.approx(2.0) and float(row["sigma_2"]) == pytest.approx(0.5)
         assert float(row["symmetric-dirichlet"]) == pytest.approx(8.5) and float(row["det"]) == pytest.approx(1.0)
         assert float(row["max(sigma1, 3)"]) == 3.0
+        assert float(row["inverted"]) == 0.0
     assert sum(float(row["area"]) for row in table) == pytest.approx(1.0)
+    fields = bent / "simplices.vtu"
+    assert cli("measure", bent / "stretched.npz", "--simplices", fields, "--distortion", "max(sigma1, 3)").status == 0
+    content = meshio.vtu.read(str(fields))
+    np.testing.assert_array_equal(content.points[:, :2], square.vertices * [2.0, 0.5])
+    assert set(content.cell_data) == set(table[0]) - {"simplex"}
+    for name, (values,) in content.cell_data.items():
+        np.testing.assert_array_equal(values, [float(row[name]) for row in table])
 
 
 @pytest.mark.parametrize(

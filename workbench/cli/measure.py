@@ -27,7 +27,10 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
         help="measure this, too; may be given many times",
     )  # fmt: skip
     add_set_option(parser, "the distortions named, each that has it")
-    add("--simplices", metavar="OUT.csv", help="write a row a simplex: singular values, det, every measure, area")
+    add(
+        "--simplices", metavar="OUT.csv|OUT.vtu",
+        help="write singular values, det, every measure, area or volume of each simplex: a table, or fields on the map",
+    )  # fmt: skip
     add("--json", action="store_true", help="one JSON object")
     parser.set_defaults(run=run)
 
@@ -35,15 +38,15 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
 def run(options: argparse.Namespace) -> int:
     """Measure, print, write."""
     from workbench.core.quality import measure_map, simplex_table
-    from workbench.io.atomic import write_text
-    from workbench.io.write import simplex_table_text
+    from workbench.io.write import write_simplices
 
     check_places([options.simplices] if options.simplices else [])
     others = _measures(options.distortions, options.settings)
     opened = open_given_map(options)
     measured = measure_map(opened.mesh, opened.positions, others)
     if options.simplices:
-        write_text(options.simplices, simplex_table_text(simplex_table(opened.mesh, opened.positions, others)))
+        table = simplex_table(opened.mesh, opened.positions, others)
+        write_simplices(options.simplices, opened.mesh, opened.positions, table)
     print(json_text(measured) if options.json else _text(measured), end="")
     return 0
 

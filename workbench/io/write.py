@@ -62,17 +62,14 @@ def write_map(
     """
     ending = Path(path).suffix.lower()
     positions = np.asarray(positions, dtype=np.float64)
-    if fields is None and ending in (".vtu", ".csv"):
-        fields = simplex_table(source_mesh, positions)
-    columns = {name: np.asarray(values, dtype=np.float64) for name, values in (fields or {}).items()}
     if ending == ".obj":
         write_text(path, obj_text(file_mesh, source_mesh, positions, kind))
     elif ending == ".npz":
         _write_npz(path, source_mesh, positions, anchor_vertices, anchor_targets)
-    elif ending in (".vtu", ".mesh", ".msh"):
-        _write_by_meshio(path, source_mesh, positions, columns)
-    elif ending == ".csv":
-        write_text(path, simplex_table_text(columns))
+    elif ending in (".vtu", ".csv"):
+        write_simplices(path, source_mesh, positions, simplex_table(source_mesh, positions) if fields is None else fields)
+    elif ending in (".mesh", ".msh"):
+        _write_by_meshio(path, source_mesh, positions)
     else:
         raise WorkbenchError(
             f"{path}: maps are written as {', '.join(WRITABLE)}; the ending {ending or '(none)'} is not one of them."
@@ -104,10 +101,16 @@ def write_surface(path: str | os.PathLike[str], surface: Mesh, positions: Floats
         write_mesh(path, replace(surface, vertices=positions))
     elif ending == ".npz":
         write_case(path, {"V": surface.vertices, "S": surface.simplices, "X": positions})
-    elif ending == ".vtu":
-        _write_by_meshio(path, surface, positions, simplex_table(surface, positions))
     else:
-        write_text(path, simplex_table_text(simplex_table(surface, positions)))
+        write_simplices(path, surface, positions, simplex_table(surface, positions))
+
+
+def write_simplices(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: Mapping[str, ArrayLike]) -> None:
+    """Writes numbers a simplex, name -> (m,): `.vtu` has them as fields on the map, any other ending is a table in CSV."""
+    if Path(path).suffix.lower() == ".vtu":
+        _write_by_meshio(path, mesh, positions, columns)
+    else:
+        write_text(path, simplex_table_text(columns))
 
 
 def write_case(path: str | os.PathLike[str], arrays: Mapping[str, ArrayLike]) -> None:
@@ -162,7 +165,9 @@ def _write_npz(
     write_case(path, {"V": mesh.vertices, "S": mesh.simplices, "X": positions, "anchors": anchors, "targets": targets})
 
 
-def _write_by_meshio(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: dict[str, Any]) -> None:
+def _write_by_meshio(
+    path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: Mapping[str, ArrayLike] | None = None
+) -> None:
     ending = Path(path).suffix.lower()
     cells = [("triangle" if mesh.dimension == 2 else "tetra", mesh.simplices)]
     with replacing(path) as part, silenced():
@@ -170,7 +175,7 @@ def _write_by_meshio(path: str | os.PathLike[str], mesh: Mesh, positions: Floats
 
         if ending == ".vtu":
             point_data = {"source": _in_space(mesh.vertices)}
-            cell_data = {name: [values] for name, values in columns.items()}
+            cell_data = {name: [np.asarray(values, dtype=np.float64)] for name, values in (columns or {}).items()}
             meshio.vtu.write(str(part), meshio.Mesh(_in_space(positions), cells, point_data, cell_data))
         elif ending == ".mesh":
             meshio.medit.write(str(part), meshio.Mesh(_in_space(positions), cells))
