@@ -1,16 +1,22 @@
-"""Volumes in the window: their boundary is drawn, coloured, pointed at."""
+"""Volumes in the window: their faces are drawn, coloured, pointed at; they are cut, peeled and pulled apart."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
+from scipy.spatial import ConvexHull
 
 from tests.app.conftest import Hand, pixel_of
 from tests.app.fake_engine import solid_mesh
 from workbench.app.main_window import MainWindow
-from workbench.app.views.drawn_faces import drawn_faces, faces_between
+from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces, faces_between
+from workbench.app.volumes.look import VolumeLook
+from workbench.app.volumes.solid import Solid
 from workbench.core.facets import facet_table, neighbouring_simplices
 
 
@@ -104,3 +110,150 @@ def test_a_brush_marks_the_faces_of_its_tetrahedra(solid_window: MainWindow) -> 
     window.brush.brush(hidden, "a test")
     assert not view.surface._brush.actors[0].GetVisibility()
     window.brush.clear()
+
+
+# ---------------------------------------------------------------------------------------------- looks
+
+
+def areas(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    a, b, c = (points[triangles[:, corner]] for corner in range(3))
+    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+
+def all_points(solid: Solid, faces: DrawnFaces) -> np.ndarray:
+    vertices = solid.mesh.vertices
+    return vertices if faces.made is None else np.concatenate([vertices, faces.made.at(vertices)])
+
+
+@pytest.mark.parametrize("normal", [(1.0, 0.0, 0.0), (0.36, 0.48, 0.8), (-0.6, 0.0, 0.8)])
+@pytest.mark.parametrize("place", [0.17, 0.5, 0.93])
+def test_an_exact_section_is_the_plane_within_the_solid(normal: tuple[float, float, float], place: float) -> None:
+    solid = Solid(solid_mesh())
+    boundary = areas(solid.mesh.vertices, solid.boundary.triangles).sum()
+    outside = 0.0
+    for is_flipped in (False, True):
+        look = VolumeLook(is_cut=True, is_exact=True, normal=normal, place=place, is_flipped=is_flipped)
+        faces = solid.faces(look)
+        points = all_points(solid, faces)
+        heights = look.heights(solid.mesh.vertices)
+        made = faces.made
+        share = made.share.astype(float)
+        reached = heights[made.first] * (1 - share) + heights[made.second] * share
+        np.testing.assert_allclose(reached, 0.0, atol=1e-6)
+        shown = np.concatenate([heights, reached])
+        assert shown[faces.triangles].max() < 1e-6, "nothing is drawn beyond the plane"
+        is_section = (np.abs(shown[faces.triangles]) < 1e-6).all(axis=1)
+        section = areas(points, faces.triangles[is_section]).sum()
+        frame = np.linalg.svd(np.array([normal]))[2][1:]
+        hull = ConvexHull(points[solid.mesh.vertex_count :] @ frame.T)
+        assert section == pytest.approx(hull.volume, rel=1e-5), "the solid is convex, and so is its section"
+        outside += areas(points, faces.triangles[~is_section]).sum()
+    assert outside == pytest.approx(boundary, rel=1e-5), "both halves together have the whole boundary"
+
+
+def test_points_of_a_section_stay_on_their_edges_when_the_map_moves() -> None:
+    solid = Solid(solid_mesh())
+    faces = solid.faces(VolumeLook(is_cut=True, is_exact=True, place=0.4))
+    matrix = np.random.default_rng(3).normal(size=(3, 3))
+    moved = faces.made.at(solid.mesh.vertices @ matrix)
+    np.testing.assert_allclose(moved, faces.made.at(solid.mesh.vertices) @ matrix, atol=1e-6)
+
+
+@pytest.mark.parametrize("look", [VolumeLook(is_cut=True, place=0.3), VolumeLook(is_cut=True, place=0.3, is_flipped=True)])
+def test_a_plane_leaves_whole_tetrahedra_on_one_side(look: VolumeLook) -> None:
+    solid = Solid(solid_mesh())
+    faces = solid.faces(look)
+    assert faces.made is None
+    middles = look.heights(solid.mesh.vertices)[solid.mesh.simplices].mean(axis=1)
+    assert set(faces.simplices.tolist()) <= set(np.flatnonzero(middles < 0).tolist())
+    other = solid.faces(replace(look, is_flipped=not look.is_flipped))
+    assert not set(faces.simplices.tolist()) & set(other.simplices.tolist())
+
+
+def test_tetrahedra_pulled_apart_keep_their_shape_and_place() -> None:
+    solid = Solid(solid_mesh())
+    faces = solid.faces(VolumeLook(spread=1.0))
+    points = all_points(solid, faces)
+    before, after = solid.mesh.vertices[solid.mesh.simplices], points[faces.corners]
+    np.testing.assert_allclose(after.mean(axis=1), before.mean(axis=1), atol=1e-6)
+    np.testing.assert_allclose(after[:, 1:] - after[:, :1], 0.5 * (before[:, 1:] - before[:, :1]), atol=1e-6)
+    assert len(faces.triangles) == 4 * solid.mesh.simplex_count
+    assert faces.vertex_of(int(faces.corners[5, 2]), solid.mesh.vertex_count) == solid.mesh.simplices[5, 2]
+
+
+def test_peeling_leaves_what_has_most_and_what_has_no_number() -> None:
+    solid = Solid(solid_mesh())
+    values = np.arange(solid.mesh.simplex_count, dtype=np.float32)
+    values[4] = np.nan
+    left = set(solid.faces(VolumeLook(threshold=300.0), values=values).simplices.tolist())
+    assert left == {4, *range(300, 324)}
+    marked = solid.faces(VolumeLook(threshold=300.0, only_marked=True), values=values, marked=np.array([4, 7, 310]))
+    assert set(marked.simplices.tolist()) == {4, 310}
+    assert not len(solid.faces(VolumeLook(threshold=1e9), values=np.zeros_like(values)).triangles)
+
+
+def test_a_cut_shows_the_same_tetrahedra_in_every_view_and_ends(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window = solid_window
+    views = [window.source.view, window.target.view, *(dock.view for dock in window.maps)]
+    window.look.cut_along("x")
+    window.look.cut.place.setValue(300)
+    for view in views:
+        assert set(view.geometry_shown.faces.simplices.tolist()) < set(range(324))
+        assert view.surface._scalars.GetNumberOfTuples() == len(view.geometry_shown.triangles)
+        assert view.surface.ghost.actor.GetVisibility()
+    window.look.cut.exact.click()
+    assert window.target.view.geometry_shown.faces.made is not None
+    window.look.cut_along("")
+    for view in views:
+        assert np.array_equal(view.geometry_shown.triangles, window.volume.solid.boundary.triangles)
+        assert not view.surface.ghost.actor.GetVisibility()
+
+
+def test_the_handle_moves_the_plane(solid_window: MainWindow) -> None:
+    window = solid_window
+    window.look.cut_along("x")
+    QTest.qWait(50)
+    handle, hand = window.look.handles[0], Hand(window.source.view)
+    place = window.volume.look.place
+    begin, way = handle.handle().toPoint(), handle._way()
+    end = begin + QPoint(round(0.2 * way[0]), round(0.2 * way[1]))
+    hand.drag(begin, end)
+    assert window.volume.look.place == pytest.approx(place + 0.2, abs=0.02)
+    assert not len(window.document.anchors), "the view has not seen this drag"
+
+
+def test_peeling_by_the_slider_takes_its_share_away_and_is_held_while_the_map_moves(
+    solid_window: MainWindow, qtbot: QtBot
+) -> None:
+    window = solid_window
+    window.document.add_anchor(0)
+    window.document.move_anchor(0, window.document.positions[0] - 0.4, False)
+    qtbot.waitUntil(lambda: abs(window.document.positions[0] - window.document.mesh.vertices[0]).min() > 0.3)
+    window.look.peel.peel.setValue(750)
+    qtbot.waitUntil(lambda: window.volume.look.threshold is not None)
+    left = len(set(window.target.view.geometry_shown.faces.simplices.tolist()))
+    assert left <= 0.26 * 324
+    held = window.volume.look.threshold
+    window.document.move_anchor(0, window.document.positions[0] + 0.3, False)
+    qtbot.waitUntil(lambda: len(set(window.target.view.geometry_shown.faces.simplices.tolist())) != left)
+    assert window.volume.look.threshold == held
+    window.volume.show_all()
+    assert window.volume.look.is_whole and not window.look.peel.peel.value()
+
+
+def test_turning_one_view_turns_all(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window = solid_window
+    Hand(window.source.view).drag(QPoint(6, 6), QPoint(60, 20))
+    axes = window.source.view.camera.axes
+    assert np.array_equal(window.target.view.camera.axes, axes)
+    qtbot.waitUntil(lambda: all(np.array_equal(dock.view.camera.axes, axes) for dock in window.maps))
+
+
+def test_the_controls_are_there_for_solids_only(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window = solid_window
+    assert window.look.cut.isVisible() and window.look.peel.isVisible()
+    window.look.cut_along("y")
+    window.open("grid")
+    qtbot.waitUntil(lambda: window.document.kind == "plane" and window.target.view.geometry_shown.is_flat)
+    assert not window.look.cut.isVisible() and not window.look.peel.isVisible()
+    assert len(window.target.view.geometry_shown.triangles) == 480

@@ -170,7 +170,7 @@ class Presenter(QObject):
         """A solid is looked at in another way."""
         solid, look = self._volume.solid, self._volume.look
         self._show_faces()
-        shell = None if solid is None or look.is_whole else solid.boundary.triangles
+        shell = solid.boundary.triangles if solid is not None and look.takes_away else None
         for view in self._views:
             if view.surface is not None:
                 view.surface.ghost.show(shell, look.ghost)

@@ -46,7 +46,12 @@ class VolumeLook:
     @property
     def is_whole(self) -> bool:
         """Whether nothing but the boundary is to be seen."""
-        return not (self.is_cut or self.threshold is not None or self.only_marked or self.spread > 0)
+        return not (self.takes_away or self.spread > 0)
+
+    @property
+    def takes_away(self) -> bool:
+        """Whether there may be tetrahedra that are not drawn though they could be seen."""
+        return self.is_cut or self.threshold is not None or self.only_marked
 
     @property
     def follows_map(self) -> bool:
