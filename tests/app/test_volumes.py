@@ -226,7 +226,7 @@ def test_peeling_by_the_slider_takes_its_share_away_and_is_held_while_the_map_mo
     solid_window: MainWindow, qtbot: QtBot
 ) -> None:
     window = solid_window
-    window.document.add_anchor(0)
+    window.document.pin(np.array([0, 40, 111]))
     window.document.move_anchor(0, window.document.positions[0] - 0.4, False)
     qtbot.waitUntil(lambda: abs(window.document.positions[0] - window.document.mesh.vertices[0]).min() > 0.3)
     window.look.peel.peel.setValue(750)
