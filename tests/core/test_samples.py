@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from workbench.core.carried_surface import carry
 from workbench.core.errors import WorkbenchError
 from workbench.core.injectivity import global_injectivity
 from workbench.core.mesh import Mesh
@@ -55,7 +56,7 @@ def test_discs_are_discs(id: str) -> None:
 
 def test_the_others_have_their_topology() -> None:
     assert len(make_sample("annulus").topology.boundary_loops) == 2
-    for id, genus in (("blob", 0), ("torus", 1)):
+    for id, genus in (("blob", 0), ("torus", 1), ("salamander", 0)):
         topology = make_sample(id).topology
         assert topology.genus == genus
         assert not len(topology.boundary_vertices)
@@ -69,14 +70,12 @@ def test_flat_samples_are_embedded_counter_clockwise(id: str) -> None:
     assert verdict.holds is True, verdict.reason
 
 
-@pytest.mark.parametrize(
-    ("id", "degrees"), [("gingerbread", 25), ("bar", 25), ("annulus", 50), ("blob", 40), ("torus", 40)]
-)
+@pytest.mark.parametrize(("id", "degrees"), [("gingerbread", 25), ("bar", 25), ("annulus", 50), ("blob", 40), ("torus", 40)])
 def test_triangles_are_well_shaped(id: str, degrees: float) -> None:
     assert smallest_angles(make_sample(id)).min() > degrees
 
 
-@pytest.mark.parametrize("id", ["bumpy-disc", "fingers", "hilbert"])
+@pytest.mark.parametrize("id", ["bumpy-disc", "fingers", "hilbert", "salamander"])
 def test_triangles_of_bent_surfaces_are_not_slivers(id: str) -> None:
     assert smallest_angles(make_sample(id)).min() > 12
 
@@ -88,6 +87,16 @@ def test_solids_fill_their_shape(id: str, volume: float) -> None:
     volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6.0
     assert volumes.min() > 0
     assert volumes.sum() == pytest.approx(volume, rel=0.02)
+
+
+def test_the_salamander_lies_in_the_solid_bar_whose_maps_carry_it() -> None:
+    surface, bar = make_sample("salamander"), make_sample("bar-3d")
+    carried = carry(surface, bar)
+    assert carried.outside_count == 0
+    np.testing.assert_allclose(carried.at(bar.vertices), surface.vertices, atol=1e-14)
+    assert np.abs(surface.vertices[:, 1].mean() - 0.5) < 1e-12, "its halves are mirror images"
+    corners = surface.vertices[surface.simplices]
+    assert np.linalg.det(corners).sum() > 0, "its triangles look outwards"
 
 
 @pytest.mark.parametrize(("id", "triangles"), [("bumpy-disc", 100_000), ("gingerbread", 20_000), ("fingers", 12_000)])

@@ -12,7 +12,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
-from workbench.core.samples import closed, figure, fingers, grids
+from workbench.core.samples import closed, figure, fingers, grids, salamander
 
 
 @dataclass(frozen=True)
@@ -100,6 +100,14 @@ _RECIPES: dict[str, _Recipe] = {
         "A closed surface of genus 1: cut it open to flatten it.",
         closed.torus,
         4000,
+        fixes=("cut",),
+    ),
+    "salamander": _Recipe(
+        "Salamander",
+        "parameterize",
+        "A closed surface that lies inside the solid bar, to be carried by its maps (Fig. 8); cut it open to flatten it.",
+        salamander.salamander,
+        6000,
         fixes=("cut",),
     ),
     "bar-3d": _Recipe("Solid bar", "volume", "A bar of tetrahedra, to bend and twist.", grids.solid_bar, 3000, _SOLID_ENDS),
