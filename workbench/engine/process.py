@@ -1,4 +1,4 @@
-"""The engine process: drain the pipe, take a step, publish; spawned, never forked."""
+"""The engine process: maps go out through shared memory, the small rest through the pipe."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from multiprocessing.connection import Connection, wait
 import numpy as np
 
 from workbench.engine.child import begin_child
-from workbench.engine.command_box import CommandBox
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Progress, Ready, Report
+from workbench.engine.service import Inbox
 from workbench.engine.shared_positions import PositionRing
 
 PUBLISH_INTERVAL = 0.004
@@ -63,34 +63,20 @@ class _Publisher:
 def engine_main(connection: Connection, corrector: Connection, spawned_at: float, threads: int) -> None:
     """Body of the child process; ends with `Quit`, or when the pipe breaks."""
     begin_child(threads)
-    box = CommandBox()
-
-    def drain() -> None:
-        while connection.poll():
-            box.put(connection.recv())
-
-    def pending() -> bool:
-        drain()
-        return box.interrupts
-
+    inbox = Inbox(connection)
     publisher = _Publisher(connection)
-    loop = EngineLoop(publisher, pending, corrector)
-    try:
+    loop = EngineLoop(publisher, inbox.is_urgent, corrector)
+
+    def begin() -> None:
         warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
         publisher(Ready(time.time() - spawned_at))
-        while not loop.has_quit:
-            drain()
-            for command in box.take_all():
-                loop.handle(command)
-            if not loop.advance() and not box:  # a step that fails may have drained a command first
-                publisher.flush()
-                loop.tend()
-                wait([connection, *loop.waits_for], NAP if loop.is_active else None)
-    except (EOFError, BrokenPipeError, ConnectionResetError):
-        pass
-    finally:
-        connection.close()
-        os._exit(0)  # threads of a plugin or of BLAS shall not keep the process
+
+    def rest() -> None:
+        publisher.flush()
+        loop.tend()
+        wait([connection, *loop.waits_for], NAP if loop.is_active else None)
+
+    inbox.serve(loop, begin, rest)
 
 
 def warm_up(tell: Callable[[], None]) -> None:

@@ -1,17 +1,16 @@
-"""The process of a race: drain the pipe, take a turn, publish; spawned, never forked."""
+"""The process of a race: a ring of maps for each contestant, the small rest through the pipe."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import replace
 from multiprocessing.connection import Connection, wait
 
 from workbench.engine.child import begin_child
-from workbench.engine.command_box import CommandBox
 from workbench.engine.messages import Progress, Report
 from workbench.engine.process import warm_up
 from workbench.engine.race_loop import RaceLoop
 from workbench.engine.race_messages import RaceFrame, RaceStarted
+from workbench.engine.service import Inbox
 from workbench.engine.shared_positions import PositionRing
 
 
@@ -40,28 +39,11 @@ class _Publisher:
 def race_main(connection: Connection, threads: int) -> None:
     """Body of the child process; ends with `Quit`, or when the pipe breaks."""
     begin_child(threads)
-    box = CommandBox()
-
-    def drain() -> None:
-        while connection.poll():
-            box.put(connection.recv())
-
-    def pending() -> bool:
-        drain()
-        return box.interrupts
-
+    inbox = Inbox(connection)
     publisher = _Publisher(connection)
-    loop = RaceLoop(publisher, pending)
-    try:
-        warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
-        while not loop.has_quit:
-            drain()
-            for command in box.take_all():
-                loop.handle(command)
-            if not loop.advance() and not box:
-                wait([connection])
-    except (EOFError, BrokenPipeError, ConnectionResetError):
-        pass
-    finally:
-        connection.close()
-        os._exit(0)  # threads of a plugin or of BLAS shall not keep the process
+    loop = RaceLoop(publisher, inbox.is_urgent)
+
+    def rest() -> None:
+        wait([connection])
+
+    inbox.serve(loop, lambda: warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …"))), rest)
