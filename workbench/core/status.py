@@ -25,7 +25,7 @@ class Status(Enum):
     NONFINITE = "Not finite: the energy overflowed or is undefined; try another start, other parameters or a milder distortion."
     INVERTED_START = (
         "Inverted start: some simplices of the start are inverted or degenerate, and this distortion is infinite there; "
-        "choose another start, or a distortion without a barrier."
+        "choose another start, a distortion without a barrier, or symmetric-dirichlet-filtered, which unfolds them."
     )
     MAX_ITERATIONS = "Stopped at the limit of iterations; raise --iterations to go on."
     TIME_LIMIT = "Stopped at the limit of time; raise --time-limit to go on."
