@@ -1,168 +1,166 @@
-"""What the mouse does in a view: look about, set, drag and remove anchors."""
+"""What the mouse does to anchors: set, choose, pull, turn and let go."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
 
-from PySide6.QtCore import QObject, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QMouseEvent, QWheelEvent
+import numpy as np
+from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent
 
+from workbench.app.handling.box_selection import in_box, visible_points
+from workbench.app.handling.hold_keys import HoldKeys
+from workbench.app.handling.holds import Hold, Pull, hold_of
+from workbench.app.handling.locks import Lock, axis_lock, normal_lock, toggled
+from workbench.app.handling.normals import mean_normal
+from workbench.app.navigation_tool import NavigationTool, pixel_of
+from workbench.app.views.camera import Pixel
 from workbench.app.views.mesh_view import MeshView
 
 CLICK_SLACK = 4.0
 """Pixels that the hand may move between press and release of a click."""
 DRAG_INTERVAL = 16
 """Milliseconds between two moves that are passed on: 60 a second."""
-
-
-class NavigationTool(QObject):
-    """Wheel zooms at the pointer, middle drag pans, left drag on the background turns a surface in space."""
-
-    def __init__(self, view: MeshView) -> None:
-        super().__init__(view)
-        self.view = view
-        self._last: QPointF | None = None
-        self._mode = ""
-        overlay = view.overlay
-        overlay.pressed.connect(self.press)
-        overlay.moved.connect(self.move)
-        overlay.released.connect(self.release)
-        overlay.double_clicked.connect(self.double_click)
-        overlay.wheeled.connect(self.wheel)
-        overlay.left.connect(self.leave)
-
-    @property
-    def can_rotate(self) -> bool:
-        return self.view.geometry_shown is not None and not self.view.geometry_shown.is_flat
-
-    def press(self, event: QMouseEvent) -> None:
-        if event.button() == Qt.MouseButton.MiddleButton:
-            self._begin("pan", event)
-        elif event.button() == Qt.MouseButton.LeftButton:
-            self._begin("rotate" if self.can_rotate else "pan", event)
-
-    def _begin(self, mode: str, event: QMouseEvent) -> None:
-        self._mode = mode
-        self._last = event.position()
-
-    def move(self, event: QMouseEvent) -> None:
-        if self._last is None or self.view.geometry_shown is None:
-            return
-        step = event.position() - self._last
-        self._last = event.position()
-        size = self.view.size_in_pixels
-        if self._mode == "pan":
-            self.view.set_camera(self.view.camera.panned(step.x(), step.y(), size))
-        elif self._mode == "rotate":
-            self.view.set_camera(self.view.camera.rotated(step.x(), step.y(), size))
-
-    def release(self, event: QMouseEvent) -> None:
-        self._last = None
-        self._mode = ""
-
-    def double_click(self, event: QMouseEvent) -> None:
-        if not self.view.is_over_mesh(_pixel(event)):
-            self.view.fit()
-
-    def wheel(self, event: QWheelEvent) -> None:
-        if self.view.geometry_shown is None:
-            return
-        turns = event.angleDelta().y() / 120.0
-        where = event.position()
-        self.view.set_camera(self.view.camera.zoomed(1.2**turns, (where.x(), where.y()), self.view.size_in_pixels))
-
-    def leave(self) -> None:
-        pass
+LEFT, SHIFT, ALT, CTRL = (
+    Qt.MouseButton.LeftButton,
+    Qt.KeyboardModifier.ShiftModifier,
+    Qt.KeyboardModifier.AltModifier,
+    Qt.KeyboardModifier.ControlModifier,
+)
 
 
 class AnchorTool(NavigationTool):
     """Anchors with the mouse, on top of looking about.
 
-    Click: set or select. Drag in the target: move. Right click: remove. Signals carry vertices and places; what
-    they do is the business of whoever listens.
+    Click: set or select. Drag in the target: move, with its group. Shift and drag: a box. Alt and click: a whole patch.
+    Signals carry vertices and motions; what they do is the business of whoever listens.
     """
 
     hovered = Signal(int)
     anchor_wanted = Signal(int)
     anchor_selected = Signal(int)
-    anchor_moved = Signal(int, object, bool, float)
-    """vertex, place (d,), whether the hand still holds it, time of the event"""
+    taken_up = Signal()
+    """The selected anchors are held by the hand now"""
+    motion_wanted = Signal(object, bool, float)
+    """motion since they were taken up, whether the hand still holds them, time of the event"""
+    drag_cancelled = Signal()
+    group_wanted = Signal(object)
+    """vertices (k,) that were chosen by a box"""
+    patch_wanted = Signal(float, float)
+    """pixel of what is to be anchored as a whole"""
     anchor_unwanted = Signal(int)
+    menu_wanted = Signal(int, float, float)
+    """anchor under the pointer or -1, pixel"""
+    numbers_wanted = Signal()
 
     def __init__(self, view: MeshView, *, is_target: bool, may_anchor: Callable[[], bool]) -> None:
         super().__init__(view)
         self._is_target = is_target
         self._may_anchor = may_anchor
-        self._pressed_at = QPointF()
+        self._pressed_at = self._where = QPointF()
         self._pressed_vertex = -1
-        self._held = -1
-        self._grip = QPointF()
+        self._hold: Hold | None = None
         self._was_moved = False
-        self._pending: tuple[QPointF, float] | None = None
+        self._box_from: QPointF | None = None
+        self._box_armed = False
+        self._pending: tuple[QPointF, bool, float] | None = None
+        self._keys = HoldKeys(self)
+        self._keys.axis_pressed.connect(self._lock_axis)
+        self._keys.normal_pressed.connect(self._lock_normal)
+        self._keys.cancelled.connect(self.cancel)
         self._throttle = QTimer(self)
         self._throttle.setInterval(DRAG_INTERVAL)
         self._throttle.timeout.connect(self._pass_on)
+        view.overlay.key_pressed.connect(self._key)
 
     @property
     def is_dragging(self) -> bool:
-        return self._held >= 0
+        return self._hold is not None
+
+    # ------------------------------------------------------------------------------------------ press
 
     def press(self, event: QMouseEvent) -> None:
-        pixel = _pixel(event)
-        if event.button() == Qt.MouseButton.RightButton:
-            vertex = self.view.anchor_at(pixel)
-            if vertex >= 0:
-                self.anchor_unwanted.emit(vertex)
-            return
-        if event.button() != Qt.MouseButton.LeftButton or not self._may_anchor():
+        if event.button() == Qt.MouseButton.RightButton and not self.is_dragging:
+            self._press_right(event)
+        elif event.button() != LEFT or not self._may_anchor():
             super().press(event)
-            return
-        self._pressed_at = event.position()
-        vertex = self.view.anchor_at(pixel)
-        is_anchor = vertex >= 0
-        if not is_anchor:
-            vertex = self.view.vertex_at(pixel)
-        self._pressed_vertex = vertex
-        if vertex < 0:
-            super().press(event)
-        elif is_anchor:
-            self.anchor_selected.emit(vertex)
-            self._hold(vertex)
-        elif self._is_target:
-            # a press sets the anchor, and the same gesture may drag it
-            self.anchor_wanted.emit(vertex)
-            self._hold(vertex)
         else:
-            # in space a drag that begins on the surface turns it; only a click sets an anchor
-            super().press(event)
+            self._press_left(event)
 
-    def _hold(self, vertex: int) -> None:
-        """Take an anchor up where it was touched: it does not jump to the pointer."""
+    def _press_right(self, event: QMouseEvent) -> None:
+        x, y = pixel_of(event)
+        vertex = self.view.anchor_at((x, y))
+        scene = self.view.overlay.scene
+        if vertex >= 0 and not scene.is_grouped(vertex):
+            self.anchor_unwanted.emit(vertex)
+        elif self._may_anchor():
+            self.menu_wanted.emit(vertex, x, y)
+
+    def _press_left(self, event: QMouseEvent) -> None:
+        pixel = pixel_of(event)
+        self._pressed_at, self._pressed_vertex = event.position(), -1
+        scene = self.view.overlay.scene
+        handle = scene.gizmo.handle_at(pixel, self.view.camera, self.view.size_in_pixels) if scene.gizmo is not None else None
+        if handle is not None and scene.gizmo is not None:
+            self._take(hold_of(self.view, scene.gizmo, handle, pixel))
+            return
+        if self._box_armed or event.modifiers() & SHIFT:
+            self._box_from = event.position()
+            return
+        vertex = self.view.anchor_at(pixel)
+        if vertex >= 0:
+            self.anchor_selected.emit(vertex)
+        elif event.modifiers() & ALT:
+            self.patch_wanted.emit(*pixel)
+            return
+        else:
+            self._pressed_vertex = self.view.vertex_at(pixel)
+            if self._pressed_vertex < 0 or not self._is_target or self.can_rotate:
+                # in space a drag that begins on the surface turns it; only a click sets an anchor
+                super().press(event)
+                return
+            self.anchor_wanted.emit(self._pressed_vertex)  # and the same gesture may drag it
+            vertex = self._pressed_vertex
         if self._is_target:
-            self._held = vertex
-            self._was_moved = False
-            scene = self.view.overlay.scene
-            row = int((scene.anchor_vertices == vertex).argmax())
-            x, y = self.view.project(scene.anchor_points[[row]])[0]
-            self._grip = self._pressed_at - QPointF(x, y)
+            self._take(Pull(self.view, pixel))
+
+    def _take(self, hold: Hold) -> None:
+        self._hold = hold
+        self._was_moved = False
+        self._keys.listen(True)
+        self.taken_up.emit()
+
+    # ------------------------------------------------------------------------------------------ move
 
     def move(self, event: QMouseEvent) -> None:
-        if self._held >= 0:
+        if self._hold is not None:
             if not self._was_moved and _distance(event.position(), self._pressed_at) < 2.0:
                 return
             self._was_moved = True
-            self._pending = (event.position(), time.perf_counter())
+            self._where = event.position()
+            self._pending = (event.position(), bool(event.modifiers() & CTRL), time.perf_counter())
             if not self._throttle.isActive():
                 self._pass_on()
                 self._throttle.start()
-            return
-        if self._last is not None:
+        elif self._box_from is not None:
+            self.view.overlay.scene.box = (self._box_from, event.position())
+            self.view.overlay.update()
+        elif self._last is not None:
             super().move(event)
-            return
-        self.hovered.emit(self._vertex_under(_pixel(event)))
+        else:
+            self._hover(pixel_of(event))
 
-    def _vertex_under(self, pixel: tuple[float, float]) -> int:
+    def _hover(self, pixel: Pixel) -> None:
+        scene = self.view.overlay.scene
+        handle = scene.gizmo.handle_at(pixel, self.view.camera, self.view.size_in_pixels) if scene.gizmo is not None else None
+        hot = (handle.kind, handle.axis) if handle is not None else None
+        if hot != scene.hot_handle:
+            scene.hot_handle = hot
+            self.view.overlay.update()
+        self.hovered.emit(-1 if handle is not None else self._vertex_under(pixel))
+
+    def _vertex_under(self, pixel: Pixel) -> int:
         vertex = self.view.anchor_at(pixel)
         return vertex if vertex >= 0 else self.view.vertex_at(pixel)
 
@@ -171,44 +169,126 @@ class AnchorTool(NavigationTool):
         if self._pending is None:
             self._throttle.stop()
             return
-        where, at = self._pending
-        where -= self._grip
+        where, in_stops, at = self._pending
         self._pending = None
-        self.anchor_moved.emit(self._held, self.view.position_at((where.x(), where.y())), True, at)
+        self._move_to(where, in_stops, True, at)
+
+    def _move_to(self, where: QPointF, in_stops: bool, is_held: bool, at: float) -> None:
+        assert self._hold is not None
+        motion = self._hold.motion((where.x(), where.y()), in_stops=in_stops)
+        self.view.overlay.scene.hold_words = self._hold.words() if is_held else ""
+        self.view.overlay.scene.hold_at = where
+        self.motion_wanted.emit(motion, is_held, at)
+
+    # ------------------------------------------------------------------------------------------ release
 
     def release(self, event: QMouseEvent) -> None:
-        if event.button() == Qt.MouseButton.LeftButton and self._held >= 0:
-            self._drop(event.position())
+        if event.button() == LEFT and self._hold is not None:
+            self._drop(event)
+        elif event.button() == LEFT and self._box_from is not None:
+            self._close_box(event)
         elif (
-            event.button() == Qt.MouseButton.LeftButton
+            event.button() == LEFT
             and self._pressed_vertex >= 0
             and _distance(event.position(), self._pressed_at) < CLICK_SLACK
-            and self.view.anchor_at(_pixel(event)) < 0
+            and self.view.anchor_at(pixel_of(event)) < 0
         ):
             self.anchor_wanted.emit(self._pressed_vertex)
         self._pressed_vertex = -1
         super().release(event)
 
-    def _drop(self, where: QPointF) -> None:
-        vertex, self._held = self._held, -1
-        self._throttle.stop()
-        self._pending = None
-        where -= self._grip
+    def _drop(self, event: QMouseEvent) -> None:
         if self._was_moved:
-            self.anchor_moved.emit(vertex, self.view.position_at((where.x(), where.y())), False, time.perf_counter())
+            self._move_to(event.position(), bool(event.modifiers() & CTRL), False, time.perf_counter())
+        self.let_go()
 
     def let_go(self) -> None:
-        """Forget a drag under way: another mesh came."""
-        self._held = -1
+        """Forget a drag under way: it has ended, or another mesh came."""
+        self._hold = None
         self._pending = None
         self._throttle.stop()
+        self._keys.listen(False)
+        scene = self.view.overlay.scene
+        scene.hold_words, scene.guide = "", None
+        self._end_box()
+
+    def cancel(self) -> None:
+        """Take a drag under way back."""
+        if self._hold is not None:
+            self.let_go()
+            self.drag_cancelled.emit()
 
     def leave(self) -> None:
         self.hovered.emit(-1)
 
+    def double_click(self, event: QMouseEvent) -> None:
+        if self.view.anchor_at(pixel_of(event)) >= 0 and event.button() == LEFT:
+            self.numbers_wanted.emit()
+        else:
+            super().double_click(event)
 
-def _pixel(event: QMouseEvent) -> tuple[float, float]:
-    return event.position().x(), event.position().y()
+    # ------------------------------------------------------------------------------------------ locks
+
+    def _lock_axis(self, name: str, is_plane: bool) -> None:
+        if self.can_rotate or (name != "z" and not is_plane):
+            self._lock(axis_lock(name, plane=is_plane))
+
+    def _lock_normal(self) -> None:
+        geometry, scene = self.view.geometry_shown, self.view.overlay.scene
+        if geometry is not None and self.can_rotate:
+            normal = mean_normal(geometry.points, geometry.triangles, scene.anchor_vertices[scene.is_selected])
+            if normal is not None:
+                self._lock(normal_lock(normal))
+
+    def _lock(self, wanted: Lock) -> None:
+        hold = self._hold
+        if not isinstance(hold, Pull):
+            return
+        hold.lock = toggled(hold.lock, wanted)
+        scene = self.view.overlay.scene
+        middle = scene.anchor_points[scene.is_selected].mean(axis=0)
+        scene.guide = None
+        if hold.lock.kind == "line":
+            scene.guide = middle + np.outer([-2.0, 2.0], hold.lock.direction)
+        if self._was_moved:
+            self._move_to(self._where, False, True, time.perf_counter())
+        self.view.overlay.update()
+
+    # ------------------------------------------------------------------------------------------ boxes
+
+    def arm_box(self) -> None:
+        """The next drag draws a box."""
+        self._box_armed = True
+        self.view.overlay.setCursor(Qt.CursorShape.CrossCursor)
+
+    def _close_box(self, event: QMouseEvent) -> None:
+        begin, end = self._box_from or event.position(), event.position()
+        self._end_box()
+        geometry = self.view.geometry_shown
+        if geometry is None or _distance(begin, end) < CLICK_SLACK:
+            return
+        corners = np.array([[begin.x(), begin.y()], [end.x(), end.y()]])
+        pixels, heights = self.view.camera.project(geometry.points, self.view.size_in_pixels)
+        chosen = np.flatnonzero(in_box(pixels[: geometry.vertex_count], corners.min(axis=0), corners.max(axis=0)))
+        if not geometry.is_flat and not event.modifiers() & CTRL:
+            chosen = visible_points(chosen, pixels, heights, geometry.triangles)
+        self.group_wanted.emit(chosen)
+
+    def _end_box(self) -> None:
+        self._box_from, self._box_armed = None, False
+        self.view.overlay.scene.box = None
+        self.view.overlay.unsetCursor()
+        self.view.overlay.update()
+
+    # ------------------------------------------------------------------------------------------ keys
+
+    def _key(self, event: QKeyEvent) -> None:
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.numbers_wanted.emit()
+            event.accept()
+        elif event.key() == Qt.Key.Key_Escape and (self._box_armed or self._box_from is not None):
+            self._end_box()
+            event.accept()
 
 
 def _distance(a: QPointF, b: QPointF) -> float:

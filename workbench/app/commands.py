@@ -51,7 +51,7 @@ class Commands(QObject):
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
             "pin": self.pin_boundary,
-            "remove": lambda: document.remove_anchor(document.selected),
+            "remove": window.desk.remove_selected,
             "clear": document.clear_anchors,
             "run": document.toggle,
             "step": document.step,

@@ -383,6 +383,11 @@ class Document(QObject):
             )
         )
 
+    @property
+    def selected_anchors(self) -> Integers:
+        """(k,) int64: the selected anchor and those that move with it."""
+        return self.anchors.group_of(self.selected)
+
     def add_anchor(self, vertex: int) -> None:
         """Hold a vertex where it is now."""
         if self.positions is not None and vertex not in self.anchors:

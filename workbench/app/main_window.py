@@ -21,6 +21,7 @@ from workbench.app.docks.histogram_dock import HistogramDock
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
+from workbench.app.handling.anchor_desk import AnchorDesk
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
@@ -166,6 +167,7 @@ class MainWindow(QMainWindow):
 
     def _make_tools(self) -> None:
         document, presenter = self.document, self.presenter
+        self.desk = AnchorDesk(document)
 
         def may_anchor() -> bool:
             return document.positions is not None
@@ -176,7 +178,10 @@ class MainWindow(QMainWindow):
             tool.hovered.connect(presenter.hover)
             tool.anchor_wanted.connect(document.add_anchor)
             tool.anchor_selected.connect(document.select)
-            tool.anchor_moved.connect(document.move_anchor)
+            tool.taken_up.connect(self.desk.take_up)
+            tool.motion_wanted.connect(self.desk.move)
+            tool.drag_cancelled.connect(self.desk.cancel)
+            tool.group_wanted.connect(self.desk.add_group)
             tool.anchor_unwanted.connect(document.remove_anchor)
             document.opened.connect(tool.let_go)
         self.inspector.follow_pointer([self.source.view, self.target.view, *(dock.view for dock in self.maps)])
@@ -298,6 +303,7 @@ class MainWindow(QMainWindow):
             self.reporter.stop()
             self.source_tool.let_go()
             self.target_tool.let_go()
+            self.desk.forget()
             self.bridge.close()
             self._finder.wait()
             self.inspector.wait()

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from workbench.app.colouring import Colouring
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
+from workbench.app.handling.gizmo import gizmo_of
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.brush_mark import BrushedParts
@@ -247,6 +248,7 @@ class Presenter(QObject):
             scene.limiting = None
             scene.hovered_point = None
             if mesh is None or geometry is None or positions is None:
+                scene.gizmo = None
                 scene.anchor_vertices = np.empty(0, np.int64)
                 scene.anchor_points = scene.vertex_points = np.empty((0, 3))
                 continue
@@ -256,7 +258,10 @@ class Presenter(QObject):
                 scene.anchor_points = geometry.frame.to_display(anchors.target_array(positions.shape[1]))
             else:
                 scene.anchor_points = scene.vertex_points
-            scene.selected = document.selected
+            scene.selected, scene.grouped = document.selected_anchors, frozenset(anchors.groups)
+            scene.gizmo = (
+                gizmo_of(scene.anchor_points[scene.is_selected], is_flat=geometry.is_flat) if view is self.target else None
+            )
             if 0 <= self._hovered < geometry.vertex_count and not document.is_held:
                 scene.hovered = self._hovered
                 scene.hovered_point = geometry.points[self._hovered]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from workbench.app.anchor_tool import NavigationTool
 from workbench.app.colour_legend import ColourLegend
 from workbench.app.docks.quantity_dock import QuantityDock
+from workbench.app.navigation_tool import NavigationTool
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.theme import Theme
 from workbench.app.views.geometry import Geometry

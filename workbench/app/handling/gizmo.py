@@ -70,6 +70,13 @@ class Gizmo:
         return best
 
 
+def gizmo_of(places: Floats, *, is_flat: bool) -> Gizmo | None:
+    """Handles for selected anchors at `places` (k, 3) of the display; None where they would help nobody."""
+    if not len(places) or (is_flat and len(places) == 1):
+        return None  # a single anchor in the plane is dragged as it is
+    return Gizmo(places.mean(axis=0), has_rings=len(places) > 1, is_flat=is_flat)
+
+
 def _handle(kind: str, axis: int, places: Floats, middle: Floats, camera: ViewCamera) -> Handle:
     """`places` (p, 3) in pixels from the centre, in the directions of the display."""
     turned = places @ camera.axes.T

@@ -9,7 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.anchor_tool import NavigationTool
+from workbench.app.navigation_tool import NavigationTool
 from workbench.app.race.race_record import RaceRecord
 from workbench.app.signatures.map_list import COLOURS
 from workbench.app.status_line import ElidedLabel

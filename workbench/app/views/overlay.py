@@ -12,6 +12,7 @@ from PySide6.QtGui import (
     QBrush,
     QColor,
     QContextMenuEvent,
+    QKeyEvent,
     QMouseEvent,
     QPainter,
     QPaintEvent,
@@ -20,9 +21,11 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.handling.gizmo import Gizmo
 from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
 from workbench.app.views.camera import Points
-from workbench.core.arrays import Integers
+from workbench.app.views.gizmo_paint import paint_gizmo
+from workbench.core.arrays import Booleans, Integers
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QEvent
@@ -45,17 +48,35 @@ class OverlayScene:
     """What the layer shows, in units of the display; a view's owner fills it in.
 
     `anchor_vertices` (k,), `anchor_points` (k, 3) where the discs stand, `vertex_points` (k, 3) where their
-    vertices are now: a line joins the two where the map lags behind.
+    vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
+    are selected, and that move with others. `hot_handle` is the kind and axis of the handle of the `gizmo` that is meant;
+    `guide` (2, 3) the line along which anchors are pulled, `hold_words` what to say about that at the pixel `hold_at`;
+    `box` two corners in pixels.
     """
 
     anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     anchor_points: Points = field(default_factory=_no_points)
     vertex_points: Points = field(default_factory=_no_points)
-    selected: int = -1
+    selected: Integers = field(default_factory=lambda: np.empty(0, np.int64))
+    grouped: frozenset[int] = frozenset()
+    gizmo: Gizmo | None = None
+    hot_handle: tuple[str, int] | None = None
+    guide: Points | None = None
+    hold_words: str = ""
+    hold_at: QPointF = field(default_factory=QPointF)
+    box: tuple[QPointF, QPointF] | None = None
     hovered: int = -1
     hovered_point: Points | None = None
     limiting: Points | None = None
     limiting_label: str = ""
+
+    @property
+    def is_selected(self) -> Booleans:
+        """(k,) which of the anchors are."""
+        return np.isin(self.anchor_vertices, self.selected)
+
+    def is_grouped(self, vertex: int) -> bool:
+        return vertex in self.grouped
 
 
 class Overlay(QWidget):
@@ -67,6 +88,7 @@ class Overlay(QWidget):
     double_clicked = Signal(object)
     wheeled = Signal(object)
     left = Signal()
+    key_pressed = Signal(object)
 
     def __init__(self, view: MeshView) -> None:
         super().__init__(view)
@@ -99,8 +121,12 @@ class Overlay(QWidget):
     def leaveEvent(self, event: QEvent) -> None:
         self.left.emit()
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        event.ignore()  # unless somebody takes it
+        self.key_pressed.emit(event)
+
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        event.accept()  # the right button removes anchors; the window's dock menu would cover them
+        event.accept()  # the right button is for anchors; the window's dock menu would cover them
 
     # ------------------------------------------------------------------------------------------ painting
 
@@ -110,8 +136,14 @@ class Overlay(QWidget):
         if self.message:
             self._paint_message(painter)
         self._paint_limiting(painter)
+        self._paint_guide(painter)
         self._paint_anchors(painter)
+        if self.scene.gizmo is not None:
+            view = self._view
+            paint_gizmo(painter, self.scene.gizmo, self.scene.hot_handle, view.camera, view.size_in_pixels, self.theme)
         self._paint_hovered(painter)
+        self._paint_box(painter)
+        self._label(painter, self.scene.hold_at + QPointF(16, -10), self.scene.hold_words)
         painter.end()
 
     def _paint_message(self, painter: QPainter) -> None:
@@ -148,16 +180,25 @@ class Overlay(QWidget):
             painter.setPen(leash)
             painter.drawLine(QPointF(*vertices[row]), QPointF(*discs[row]))
         painter.setPen(rim)
-        painter.setBrush(QBrush(ANCHOR))
-        chosen = -1
-        for row, point in enumerate(discs):
-            if scene.anchor_vertices[row] == scene.selected:
-                chosen = row
-                continue
-            painter.drawEllipse(QPointF(*point), radius, radius)
-        if chosen >= 0:
-            painter.setBrush(QBrush(ANCHOR_SELECTED))
-            painter.drawEllipse(QPointF(*discs[chosen]), RADIUS + 1, RADIUS + 1)
+        is_selected = scene.is_selected
+        for brush, rows, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
+            painter.setBrush(QBrush(brush))
+            for point in discs[rows]:
+                painter.drawEllipse(QPointF(*point), radius + larger, radius + larger)
+
+    def _paint_guide(self, painter: QPainter) -> None:
+        if self.scene.guide is not None:
+            begin, end = self._view.project(self.scene.guide)
+            painter.setPen(QPen(QColor(self.theme.accent), 1.2, Qt.PenStyle.DashDotLine))
+            painter.drawLine(QPointF(*begin), QPointF(*end))
+
+    def _paint_box(self, painter: QPainter) -> None:
+        if self.scene.box is not None:
+            colour = QColor(self.theme.accent)
+            painter.setPen(QPen(colour, 1.4, Qt.PenStyle.DashLine))
+            colour.setAlpha(40)
+            painter.setBrush(colour)
+            painter.drawRect(QRectF(*self.scene.box).normalized())
 
     def _paint_hovered(self, painter: QPainter) -> None:
         scene = self.scene
