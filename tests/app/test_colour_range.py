@@ -205,3 +205,33 @@ def test_parameters_are_read_from_text() -> None:
     for text in ("p", "p = x", "= 3", "2p = 3"):
         with pytest.raises(WorkbenchError, match="name = value"):
             values_in(text)
+
+
+def test_quantities_begin_where_those_of_the_dimension_do() -> None:
+    book = QuantityBook()
+    book.list_distortions(registry().distortions.values())
+    symmetric = book.range_of("symmetric-dirichlet")
+    assert (symmetric.quantity.least, symmetric.low) == (4.0, 4.0)
+    book.add_formula("sum(sigma^2)/n")
+    gone = book.add_formula("sigma1/sigma2").id
+    book.set_dimension(3)
+    symmetric.take(np.array([6.1, 6.5, 7.0]))
+    assert (symmetric.quantity.least, symmetric.low) == (6.0, 6.0)
+    assert "σ₃" in book["dirichlet"].formula
+    assert book["mips"].least == pytest.approx(3.0)
+    assert {"sum(sigma^2)/n", gone} <= {q.id for q in book.quantities}
+    book.set_dimension(2)
+    assert symmetric.quantity.least == 4.0
+
+
+def test_what_a_dimension_does_not_have_is_replaced_where_it_is_shown() -> None:
+    book = QuantityBook()
+    book.list_distortions(registry().distortions.values())
+    book.set_dimension(3)
+    of_space = book.add_formula("sigma1/sigma3").id
+    book.range_of(of_space)
+    told: list[tuple[str, str]] = []
+    book.replaced.connect(lambda old, new: told.append((old, new)))
+    book.set_dimension(2)
+    assert of_space not in book
+    assert told == [(of_space, "in-force")]

@@ -33,7 +33,7 @@ class Colouring(QObject):
         self._styles = {pane: pane.chooser.current for pane in panes}
         self._panels = list(panels)
         book.range_changed.connect(self._range_changed)
-        document.opened.connect(self._forget)
+        document.opened.connect(self._begin)
         document.session_changed.connect(self._take_choice)
         book.listed.connect(self._take_choice)
         book.replaced.connect(self._replace)
@@ -107,7 +107,10 @@ class Colouring(QObject):
         self._book.set_in_force(session.distortion, session.distortion_parameters)
         self.watch()
 
-    def _forget(self) -> None:
+    def _begin(self) -> None:
+        """Another mesh, maybe of another dimension."""
+        if self._document.mesh is not None:
+            self._book.set_dimension(self._document.mesh.dimension)
         for colour_range in self._book.ranges():
             colour_range.forget()
 

@@ -51,28 +51,37 @@ class Quantity:
         return f"{self.label} {self.equation}".rstrip()
 
 
-LIVE_QUANTITIES: tuple[Quantity, ...] = (
-    Quantity("dirichlet", "Dirichlet", "(25)", "σ₁² + σ₂²", 0.0, least_span=5.0),
-    Quantity("condition-number", "Condition number", "(29)", "σ₁ / σ₂", 1.0),
-    Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0),
-)
-"""The colour maps that a window begins with."""
-CONFORMAL_FACTOR = Quantity(
-    "average-singular-value",
-    "Average singular value",
-    "(78)",
-    "(σ₁ + σ₂) / 2, the approximate conformal factor",
-    centre=1.0,
-    is_logarithmic=True,
-    group="factors",
-)
-FACTORS: tuple[Quantity, ...] = (
-    CONFORMAL_FACTOR,
-    Quantity("det", "Determinant", "", DESCRIPTORS["det"], None, centre=1.0, is_logarithmic=True, group="factors"),
-    Quantity("sigma1", "σ₁", "", DESCRIPTORS["sigma1"], 0.0, centre=1.0, is_logarithmic=True, group="factors"),
-    Quantity("sigman", "σₙ", "", DESCRIPTORS["sigman"], None, centre=1.0, is_logarithmic=True, group="factors"),
-)
-"""Factors of length and area: below and above 1 are told apart, a half as far from it as twice."""
+
+def _summed(power: str, dimension: int) -> str:
+    return " + ".join(f"σ{index}{power}" for index in "₁₂₃"[:dimension])
+
+
+def live_quantities(dimension: int) -> tuple[Quantity, ...]:
+    """The colour maps that a window begins with, for triangles (2) or tetrahedra (3)."""
+    squares, inverses = _summed("²", dimension), _summed("⁻²", dimension)
+    ratio = f"σ₁ / σ{'₁₂₃'[dimension - 1]}"
+    return (
+        Quantity("dirichlet", "Dirichlet", "(25)", squares, 0.0, least_span=5.0),
+        Quantity("condition-number", "Condition number", "(29)", ratio, 1.0),
+        Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", f"{squares} + {inverses}", 2.0 * dimension),
+    )
+
+
+def factors(dimension: int) -> tuple[Quantity, ...]:
+    """Factors of length and area or volume: below and above 1 are told apart, a half as far from it as twice."""
+    mean = f"({_summed('', dimension)}) / {dimension}, the approximate conformal factor"
+    listed: tuple[tuple[str, str, str, str, float | None], ...] = (
+        ("average-singular-value", "Average singular value", "(78)", mean, 0.0),
+        ("det", "Determinant", "", DESCRIPTORS["det"], None),
+        ("sigma1", "σ₁", "", DESCRIPTORS["sigma1"], 0.0),
+        ("sigman", "σₙ", "", DESCRIPTORS["sigman"], None),
+    )
+    return tuple(Quantity(*words, centre=1.0, is_logarithmic=True, group="factors") for words in listed)
+
+
+LIVE_QUANTITIES = live_quantities(2)
+FACTORS = factors(2)
+CONFORMAL_FACTOR = FACTORS[0]
 
 IN_FORCE = Quantity(
     "in-force", "In force", "", "The distortion that is minimised now", 4.0, text="symmetric-dirichlet", group="in force"
@@ -80,20 +89,20 @@ IN_FORCE = Quantity(
 """Follows the choice of the distortion and its parameters."""
 
 
-def quantity_of_distortion(item: Distortion, group: str = "distortions") -> Quantity:
+def quantity_of_distortion(item: Distortion, group: str = "distortions", dimension: int = 2) -> Quantity:
     """A registered distortion with its default parameters."""
     numbered = re.match(r"\(\d+\)(-\(\d+\))?", item.citation)
     equation = numbered.group() if numbered else ""
-    least, centre = _sides(item)
+    least, centre = _sides(item, dimension)
     return Quantity(item.id, item.label, equation, item.formula, least, centre=centre, group=group)
 
 
-def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None) -> Quantity:
+def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None, dimension: int = 2) -> Quantity:
     """A typed formula. Raises `WorkbenchError` where it is none."""
     item = resolved(text, parameters)
-    item.compiled(2)
+    item.compiled(dimension)
     measure = Measure.of(text, parameters)
-    least, centre = _sides(item)
+    least, centre = _sides(item, dimension)
     return Quantity(
         measure.id,
         measure.id,
@@ -107,10 +116,10 @@ def quantity_of_formula(text: str, parameters: Mapping[str, float] | None = None
     )
 
 
-def quantity_in_force(text: str, parameters: Mapping[str, float]) -> Quantity:
+def quantity_in_force(text: str, parameters: Mapping[str, float], dimension: int = 2) -> Quantity:
     """The distortion that is minimised, whichever it is. Raises `WorkbenchError` where the text is none."""
     item = resolved(text, parameters)
-    least, centre = _sides(item)
+    least, centre = _sides(item, dimension)
     measure = Measure.of(text, parameters)
     words = item.short or item.label
     label = f"{IN_FORCE.label}: {words if len(words) <= 40 else words[:39] + '…'}"
@@ -119,14 +128,14 @@ def quantity_in_force(text: str, parameters: Mapping[str, float]) -> Quantity:
     )
 
 
-def _sides(item: Distortion) -> tuple[float | None, float | None]:
-    """Smallest value and centre of a distortion in the plane, as far as a look at some hundred matrices tells.
+def _sides(item: Distortion, dimension: int) -> tuple[float | None, float | None]:
+    """Smallest value and centre of a distortion in a dimension, as far as a look at some hundred matrices tells.
 
     A normalised one begins at its value for an isometry, another that is never negative at 0; one that takes both signs
     has its centre there.
     """
     with np.errstate(all="ignore"):
-        at_isometry, *others = item.value(_trial_values())
+        at_isometry, *others = item.value(_trial_values(dimension))
     others = np.array(others)
     others = others[np.isfinite(others)]
     if not len(others) or not np.isfinite(at_isometry):
@@ -139,9 +148,9 @@ def _sides(item: Distortion) -> tuple[float | None, float | None]:
     return 0.0, None
 
 
-@lru_cache(maxsize=1)
-def _trial_values() -> np.ndarray:
-    """Singular values (k, 2), descending, of many sizes; first those of an isometry."""
+@lru_cache(maxsize=2)
+def _trial_values(dimension: int) -> np.ndarray:
+    """Singular values (k, n), descending, of many sizes; first those of an isometry."""
     random = np.random.default_rng(7)
-    exponents = np.concatenate([random.uniform(-4, 4, (200, 2)), random.uniform(-0.3, 0.3, (200, 2))])
-    return np.vstack([np.ones((1, 2)), -np.sort(-(10.0**exponents), axis=1)])
+    exponents = np.concatenate([random.uniform(-reach, reach, (200, dimension)) for reach in (4, 0.3)])
+    return np.vstack([np.ones((1, dimension)), -np.sort(-(10.0**exponents), axis=1)])

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
+from contextlib import suppress
 from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.colour_range import ColourRange
 from workbench.app.quantities import (
-    FACTORS,
     IN_FORCE,
-    LIVE_QUANTITIES,
     Quantity,
+    factors,
+    live_quantities,
     quantity_in_force,
     quantity_of_distortion,
     quantity_of_formula,
@@ -33,7 +34,9 @@ class QuantityBook(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._quantities: dict[str, Quantity] = {q.id: q for q in (IN_FORCE, *LIVE_QUANTITIES, *FACTORS)}
+        self.dimension = 2
+        self._quantities: dict[str, Quantity] = {q.id: q for q in (IN_FORCE, *live_quantities(2), *factors(2))}
+        self._offered: tuple[list[Distortion], Container[str]] = ([], ())
         self._ranges: dict[str, ColourRange] = {}
         self._own: dict[str, Distortion] = {}
         self._holds_all = False
@@ -62,8 +65,33 @@ class QuantityBook(QObject):
     def ranges(self) -> tuple[ColourRange, ...]:
         return tuple(self._ranges.values())
 
+    def set_dimension(self, dimension: int) -> None:
+        """Triangles (2) or tetrahedra (3): what can be shown of them, and where its colours begin."""
+        if dimension == self.dimension:
+            return
+        self.dimension = dimension
+        typed = [q for q in self._quantities.values() if q.group == "typed"]
+        in_force, chosen = self._quantities[IN_FORCE.id], self._chosen
+        self._quantities = {q.id: q for q in (in_force, *live_quantities(dimension), *factors(dimension))}
+        for quantity in typed:
+            with suppress(WorkbenchError):  # one that this dimension does not have
+                same = quantity_of_formula(quantity.text, dict(quantity.parameters), dimension)
+                self._quantities[same.id] = same
+        if self.is_listed:
+            self.list_distortions(*self._offered)
+        else:
+            self._redefine_all()
+            self.listed.emit()
+        if chosen is not None:
+            self._chosen = None
+            self.set_in_force(*chosen)
+        for id in [id for id in self._ranges if id not in self._quantities]:
+            self.replaced.emit(id, IN_FORCE.id)
+
     def list_distortions(self, items: Iterable[Distortion], own: Container[str] = ()) -> None:
         """Offer these registered distortions, those whose ids are in `own` by themselves; others offered before go."""
+        items = list(items)
+        self._offered = (items, own)
         fixed = {id: q for id, q in self._quantities.items() if q.group in ("in force", "live", "factors")}
         offered = []
         before, self._own = self._own, {}
@@ -73,15 +101,13 @@ class QuantityBook(QObject):
             if item.id in own:
                 self._own[item.id] = item
             try:
-                offered.append(quantity_of_distortion(item, "own" if item.id in own else "distortions"))
+                offered.append(quantity_of_distortion(item, "own" if item.id in own else "distortions", self.dimension))
             except WorkbenchError:
-                continue  # not one of the plane
+                continue  # not one of this dimension
         offered.sort(key=lambda q: (q.group, q.label.lower()))
         typed = {id: q for id, q in self._quantities.items() if q.group == "typed"}
         self._quantities = fixed | {q.id: q for q in offered} | typed
-        for id in self._ranges:
-            if id in self._quantities:
-                self._redefine(self._quantities[id])  # a formula of one's own may have been changed
+        self._redefine_all()  # a formula of one's own may have been changed
         self.is_listed = True
         self._chosen = None
         heirs = [(id, self._heir(item)) for id, item in before.items() if id in self._ranges and id not in self._quantities]
@@ -97,7 +123,7 @@ class QuantityBook(QObject):
             if is_same and id in self._quantities:
                 return id
         try:
-            quantity = quantity_of_formula(item.formula, item.parameter_values)
+            quantity = quantity_of_formula(item.formula, item.parameter_values, self.dimension)
         except WorkbenchError:
             return None  # it names a formula that is gone, too
         self._quantities.setdefault(quantity.id, quantity)
@@ -110,7 +136,7 @@ class QuantityBook(QObject):
             return
         self._chosen = chosen
         try:
-            quantity = quantity_in_force(text, parameters)
+            quantity = quantity_in_force(text, parameters, self.dimension)
         except WorkbenchError:
             return  # whoever chose it is told
         if quantity != self._quantities[IN_FORCE.id]:
@@ -120,6 +146,11 @@ class QuantityBook(QObject):
                 self._redefine(quantity)
             if is_other:
                 self.listed.emit()
+
+    def _redefine_all(self) -> None:
+        for id in self._ranges:
+            if id in self._quantities:
+                self._redefine(self._quantities[id])
 
     def _redefine(self, quantity: Quantity) -> None:
         """The same id stands for something else: its range keeps what the user chose, and is fitted anew."""
@@ -134,7 +165,7 @@ class QuantityBook(QObject):
         text = text.strip()
         if text in self._quantities and not parameters:
             return self._quantities[text]
-        quantity = quantity_of_formula(text, parameters)
+        quantity = quantity_of_formula(text, parameters, self.dimension)
         if quantity.id not in self._quantities:
             self._quantities[quantity.id] = quantity
             self.listed.emit()
