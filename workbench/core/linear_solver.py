@@ -10,6 +10,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from workbench.core.arrays import Floats
+from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_pattern
 from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.pattern import HessianPattern
 
@@ -136,14 +137,32 @@ class Pardiso(LinearSolver):
         return np.asarray(result).reshape(rhs.shape)
 
 
-BACK_ENDS: dict[str, type[LinearSolver]] = {"cholmod": Cholmod, "superlu": SuperLU, "pardiso": Pardiso}
+class Multifrontal(LinearSolver):
+    """Cholesky on all cores, by kernels of our own over SciPy's LAPACK."""
+
+    name = "multifrontal"
+
+    def __init__(self, pattern: HessianPattern) -> None:
+        self._factor = CholeskyFactor(analyse_pattern(pattern))
+
+    def factorise(self, values: Floats) -> None:
+        try:
+            self._factor.factorise(values)
+        except NotPositiveDefiniteError as error:
+            raise SingularMatrixError(str(error)) from None
+
+    def solve(self, rhs: Floats) -> Floats:
+        return self._factor.solve(rhs)
+
+
+BACK_ENDS: dict[str, type[LinearSolver]] = {back_end.name: back_end for back_end in (Multifrontal, Cholmod, Pardiso, SuperLU)}
 
 
 def available_back_ends() -> tuple[str, ...]:
     """Names of the back ends whose libraries can be imported, the preferred one first."""
     from importlib.util import find_spec
 
-    names = []
+    names = ["multifrontal"]
     if find_spec("cvxopt"):
         names.append("cholmod")
     if find_spec("pypardiso"):

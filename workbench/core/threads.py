@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TypeVar
 
 T = TypeVar("T")
+Piece = TypeVar("Piece")
 
 _count = min(os.cpu_count() or 1, 8)
 _pool: ThreadPoolExecutor | None = None
@@ -42,13 +44,34 @@ def one_thread() -> Iterator[None]:
 
 def over_ranges(work: Callable[[int, int, int], T], size: int, grain: int = 4096) -> list[T]:
     """`work(part, start, stop)` over equal parts of range(size), in parallel; results in order of the parts."""
-    global _pool
     parts = max(1, min(_count, size // grain))
     bounds = [size * p // parts for p in range(parts + 1)]
     if parts == 1:
         return [work(0, 0, size)]
-    if _pool is None:
-        _pool = ThreadPoolExecutor(max_workers=_count, thread_name_prefix="kernel")
-    futures = [_pool.submit(work, p, bounds[p], bounds[p + 1]) for p in range(1, parts)]
+    pool = _threads()
+    futures = [pool.submit(work, p, bounds[p], bounds[p + 1]) for p in range(1, parts)]
     first = work(0, bounds[0], bounds[1])
     return [first, *[f.result() for f in futures]]
+
+
+def over_pieces(work: Callable[[Piece], T], pieces: Sequence[Piece]) -> list[T]:
+    """`work` on every piece, each taken by the first thread that is free; results in order of the pieces."""
+    results: dict[int, T] = {}
+    tickets = itertools.count()
+
+    def worker() -> None:
+        while (ticket := next(tickets)) < len(pieces):
+            results[ticket] = work(pieces[ticket])
+
+    futures = [_threads().submit(worker) for _ in range(min(_count, len(pieces)) - 1)]
+    worker()
+    for future in futures:
+        future.result()
+    return [results[ticket] for ticket in range(len(pieces))]
+
+
+def _threads() -> ThreadPoolExecutor:
+    global _pool
+    if _pool is None:
+        _pool = ThreadPoolExecutor(max_workers=_count, thread_name_prefix="kernel")
+    return _pool

@@ -1,0 +1,103 @@
+"""The numeric factor: subtrees side by side on the threads, what is above them with all threads at each dense step."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from functools import lru_cache
+
+import numpy as np
+from threadpoolctl import ThreadpoolController
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.cholesky.analysis import SymbolicFactor
+from workbench.core.cholesky.dense import DENSE_ROUTINES
+from workbench.core.cholesky.kernels import assemble_panel, factor_supernodes, pass_on, solve_backward, solve_forward
+from workbench.core.cholesky.tiled import eliminate_columns, update_matrix
+from workbench.core.threads import over_pieces
+
+
+class NotPositiveDefiniteError(ArithmeticError):
+    """A pivot was not positive, or not finite."""
+
+
+class CholeskyFactor:
+    """L with P A P^T = L L^T. Its arrays are made once and written anew by every `factorise`."""
+
+    def __init__(self, symbolic: SymbolicFactor) -> None:
+        self.symbolic = symbolic
+        self._factor = np.zeros(symbolic.factor_size)
+        self._workspace = np.zeros(symbolic.workspace_size)
+        self._subtrees = [(int(begin), int(end)) for begin, end in symbolic.subtrees]
+        self._pieces = [np.arange(begin, end) for begin, end in symbolic.subtrees]
+
+    def factorise(self, values: Floats) -> None:
+        """Factorise; (nnz,) values on the pattern. Raises `NotPositiveDefiniteError`."""
+        layout, factor, workspace = self.symbolic.layout, self._factor, self._workspace
+
+        def subtree(piece: tuple[int, int]) -> bool:
+            return bool(factor_supernodes(*piece, layout, DENSE_ROUTINES, values, factor, workspace))
+
+        with _one_dense_thread():
+            fine = all(over_pieces(subtree, self._subtrees)) and all(
+                self._eliminate(node, values) for node in self.symbolic.top
+            )
+        if not fine:
+            raise NotPositiveDefiniteError("a pivot is not positive")
+
+    def _eliminate(self, node: int, values: Floats) -> bool:
+        """One supernode, its dense steps shared by the threads."""
+        layout, factor, workspace = self.symbolic.layout, self._factor, self._workspace
+        assemble_panel(node, layout, values, factor, workspace)
+        panel = int(layout.panel_starts[node])
+        columns = int(layout.first[node + 1] - layout.first[node])
+        height = int(layout.row_starts[node + 1] - layout.row_starts[node])
+        if not eliminate_columns(factor, panel, columns, height):
+            return False
+        if height > columns:
+            update_matrix(factor, panel, columns, height, workspace, int(layout.scratch_starts[node]))
+            pass_on(node, layout, workspace)
+        return True
+
+    def solve(self, rhs: Floats) -> Floats:
+        """Solution of A x = rhs; (N,) or (N, k), a new array. Needs a factorisation."""
+        s = self.symbolic
+        x = np.ascontiguousarray(rhs.reshape(s.size, -1)[s.order].T)
+        spare: list[Floats] = []
+
+        def forward(supernodes: Integers) -> Floats:
+            above = spare.pop() if spare else np.zeros_like(x)
+            solve_forward(supernodes, s.layout, self._factor, x, above)
+            rows = self._rows_above(supernodes[-1])
+            asked: Floats = above[:, rows]
+            above[:, rows] = 0.0
+            spare.append(above)
+            return asked
+
+        def backward(supernodes: Integers) -> None:
+            solve_backward(supernodes, s.layout, self._factor, x)
+
+        asked = over_pieces(forward, self._pieces)
+        above = spare.pop() if spare else np.zeros_like(x)
+        for supernodes, values in zip(self._pieces, asked, strict=True):  # in this order whoever was first
+            above[:, self._rows_above(supernodes[-1])] += values
+        solve_forward(s.top, s.layout, self._factor, x, above)
+        backward(s.top)
+        over_pieces(backward, self._pieces)
+        result = np.empty((s.size, len(x)))
+        result[s.order] = x.T
+        return result.reshape(rhs.shape)
+
+    def _rows_above(self, supernode: int) -> np.ndarray:
+        layout = self.symbolic.layout
+        columns = layout.first[supernode + 1] - layout.first[supernode]
+        return layout.rows[layout.row_starts[supernode] + columns : layout.row_starts[supernode + 1]]
+
+
+@lru_cache(maxsize=1)
+def _dense_libraries() -> ThreadpoolController:
+    return ThreadpoolController()
+
+
+def _one_dense_thread() -> AbstractContextManager[object]:
+    """Dense routines use the calling thread meanwhile: there is one call a core at a time already."""
+    return _dense_libraries().limit(limits=1, user_api="blas")
