@@ -45,8 +45,11 @@ from workbench.core.newton_solver import NewtonSolver
 from workbench.core.problem import Problem
 from workbench.core.progressive_solver import Progress, ProgressiveSolver
 from workbench.core.quasi_newton_solver import QuasiNewtonSolver
+from workbench.core.radial_stretch import radial_stretch
 from workbench.core.refine import Refined, refine
+from workbench.core.rigid_start import rigid_map
 from workbench.core.run import RunResult, run
+from workbench.core.solid_boundary import boundary_images, solid_boundary
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
@@ -101,6 +104,7 @@ __all__ = [
     "approach_anchors",
     "armijo",
     "best_start",
+    "boundary_images",
     "complex_hessian",
     "conformal_energy",
     "convex_outline",
@@ -129,10 +133,13 @@ __all__ = [
     "moved_state",
     "never",
     "parameter",
+    "radial_stretch",
     "refine",
     "reweighted_laplacian",
+    "rigid_map",
     "run",
     "signed_areas",
+    "solid_boundary",
     "solve_with_fixed",
     "unblocked_direction",
     "uniform_weights",

@@ -16,7 +16,7 @@ from workbench.core.method import Kind
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
 
-OWN_SCALE = ("rest", "file", "auto")
+OWN_SCALE = ("rest", "file", "auto", "arap-start")
 """Initializers whose scale is meant."""
 DEFAULT_INITIALIZERS: dict[Kind, str] = {"plane": "rest", "parameterize": "tutte", "volume": "rest"}
 

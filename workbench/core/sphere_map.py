@@ -1,0 +1,154 @@
+"""A closed surface of genus 0 onto the unit sphere, without a flipped triangle."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.convex_map import cotangent_weights, laplacian
+from workbench.core.definite_solve import solve_with_fixed
+from workbench.core.mesh import Mesh
+from workbench.core.predicates import orientation_3d
+
+_CAP = 2.0
+"""Each half sphere is solved out to this radius in the plane, the equator being 1: the two overlap."""
+_HALVES = 8
+_SMALLEST_WEIGHT = 0.05
+"""Weights of edges are at least this part of their median: negative ones could fold the map."""
+_ROUNDS = 400
+_CENTRED = 1e-9
+
+
+def spherical_map(surface: Mesh) -> Floats:
+    """The harmonic map to the unit sphere, outwards, about centred; flipped triangles are relaxed away.
+
+    The surface less one triangle is laid out in the plane by a harmonic map and wrapped round the sphere by the
+    stereographic projection, which does too little near that triangle. So the two half spheres are solved in turn, each in
+    the stereographic plane of its own pole with the other half held (Schwarz's alternation), then the map is centred by the
+    conformal motions of the sphere.
+
+    Parameters
+    ----------
+    surface : Mesh     triangles in space: closed, genus 0, one component, oriented outwards
+
+    Returns
+    -------
+    (n, 3) float64, of unit length
+
+    Raises `WorkbenchError` where a linear system is singular.
+    Source: Haker et al. 2000, Gu & Yau 2003 and Choi, Lam & Lui 2015, for the way by the plane.
+    """
+    weights = _positive(cotangent_weights(surface))
+    matrix = laplacian(surface.simplices, weights, surface.vertex_count)
+    areas = _vertex_areas(surface)
+    plane = _layout(surface, matrix, areas)
+    for half in range(_HALVES):
+        plane = _solved_half(matrix, plane, surface.elimination_order)
+        plane = _balanced(1.0 / np.conj(_off_origin(plane)) if half < _HALVES - 1 else plane, areas)
+    sphere = _centred(_wrapped(plane), areas)
+    if _oriented_volume(surface.simplices, sphere) < 0.0:
+        sphere = sphere * np.array([-1.0, 1.0, 1.0])
+    return without_flips(surface.simplices, sphere)
+
+
+def flipped_triangles(triangles: Integers, sphere: Floats) -> Integers:
+    """Triangles (k,) that are not seen counter-clockwise from outside, exactly; `sphere` (n, 3)."""
+    a, b, c = (np.ascontiguousarray(sphere[triangles[:, i]]) for i in range(3))
+    return np.flatnonzero(orientation_3d(np.zeros_like(a), a, b, c) <= 0)
+
+
+def without_flips(triangles: Integers, sphere: Floats) -> Floats:
+    """The map with vertices near flipped triangles moved to the middle of their neighbours until none is left.
+
+    Where `_ROUNDS` do not suffice, the map with the fewest flipped triangles.
+    """
+    flipped = flipped_triangles(triangles, sphere)
+    if not len(flipped):
+        return sphere
+    size = len(sphere)
+    tails, heads = triangles[:, [0, 1, 2]].ravel(), triangles[:, [1, 2, 0]].ravel()
+    neighbours = sparse.coo_matrix((np.ones(len(tails)), (tails, heads)), shape=(size, size)).tocsr()
+    best, fewest = sphere, len(flipped)
+    moves = np.zeros(size, dtype=bool)
+    for step in range(_ROUNDS):
+        moves[triangles[flipped]] = True
+        if step % 4 == 3:  # the neighbourhood grows until there is room
+            moves |= neighbours @ moves.astype(np.float64) > 0.0
+        mean = neighbours @ sphere
+        sphere = np.where(moves[:, None], mean / np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-300), sphere)
+        flipped = flipped_triangles(triangles, sphere)
+        if len(flipped) < fewest:
+            best, fewest = sphere, len(flipped)
+        if not fewest:
+            break
+    return best
+
+
+def _positive(weights: Floats) -> Floats:
+    return np.maximum(weights, _SMALLEST_WEIGHT * float(np.median(np.abs(weights))))
+
+
+def _vertex_areas(surface: Mesh) -> Floats:
+    corners = surface.vertices[surface.simplices]
+    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    shares = np.bincount(surface.simplices.ravel(), np.repeat(areas, 3), surface.vertex_count)
+    return shares / shares.sum()
+
+
+def _layout(surface: Mesh, matrix: sparse.csr_matrix, areas: Floats) -> Floats:
+    """The surface less its most regular triangle in the complex plane (n,), half of its area within the unit circle."""
+    corners = surface.vertices[surface.simplices]
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    left_out = surface.simplices[int(np.argmin(sides.max(axis=1) / sides.min(axis=1)))]
+    angle = 2.0 * np.pi * np.arange(3) / 3.0
+    places = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    positions = solve_with_fixed(matrix, left_out, places, surface.elimination_order)
+    return _balanced(positions @ np.array([1.0, 1j]), areas)
+
+
+def _balanced(plane: Floats, areas: Floats) -> Floats:
+    """Scaled so that half of the area lies within the unit circle, about its middle."""
+    size = np.abs(plane)
+    order = np.argsort(size, kind="stable")
+    median = size[order[np.searchsorted(np.cumsum(areas[order]), 0.5)]]
+    return plane / max(float(median), 1e-300)
+
+
+def _off_origin(plane: Floats) -> Floats:
+    return np.where(np.abs(plane) < 1e-12, 1e-12, plane)
+
+
+def _solved_half(matrix: sparse.csr_matrix, plane: Floats, order: Integers) -> Floats:
+    held = np.flatnonzero(np.abs(plane) >= _CAP)
+    if len(held) < 3:
+        held = np.argsort(np.abs(plane), kind="stable")[-3:]
+    places = np.stack([plane[held].real, plane[held].imag], axis=1)
+    return solve_with_fixed(matrix, held, places, order) @ np.array([1.0, 1j])
+
+
+def _wrapped(plane: Floats) -> Floats:
+    """Stereographic projection of the complex plane (n,) to the unit sphere (n, 3); the unit circle is the equator."""
+    squares = np.abs(plane) ** 2
+    points = np.stack([2.0 * plane.real, 2.0 * plane.imag, squares - 1.0], axis=1)
+    return points / (squares + 1.0)[:, None]
+
+
+def _centred(sphere: Floats, areas: Floats) -> Floats:
+    """Moved by conformal motions of the sphere until the centre of mass of the surface's area is 0."""
+    for _ in range(200):
+        centre = areas @ sphere
+        size = float(np.linalg.norm(centre))
+        if size < _CENTRED:
+            break
+        shift = centre * (min(size, 0.9) / size)
+        apart = sphere - shift
+        squares = np.einsum("ij,ij->i", apart, apart)
+        sphere = (1.0 - shift @ shift) * apart / np.maximum(squares, 1e-300)[:, None] - shift
+        sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
+    return sphere
+
+
+def _oriented_volume(triangles: Integers, sphere: Floats) -> float:
+    a, b, c = (sphere[triangles[:, i]] for i in range(3))
+    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
