@@ -20,17 +20,6 @@ from workbench.app.volumes.solid import Solid
 from workbench.core.facets import facet_table, neighbouring_simplices
 
 
-@pytest.fixture
-def solid_window(window: MainWindow, qtbot: QtBot) -> MainWindow:
-    """The window with a solid in it."""
-    window.open("solid")
-    qtbot.waitUntil(lambda: window.document.kind == "volume" and window.document.positions is not None)
-    qtbot.waitUntil(lambda: window.target.view.geometry_shown is not None)
-    QTest.qWait(30)
-    window.commands.fit()
-    return window
-
-
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_faces_of_any_set_of_tetrahedra_are_a_closed_surface_round_its_volume(seed: int) -> None:
     mesh = solid_mesh()
@@ -181,6 +170,14 @@ def test_tetrahedra_pulled_apart_keep_their_shape_and_place() -> None:
     assert faces.vertex_of(int(faces.corners[5, 2]), solid.mesh.vertex_count) == solid.mesh.simplices[5, 2]
 
 
+def test_of_many_tetrahedra_pulled_apart_the_outer_ones_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("workbench.app.volumes.solid.MOST_SPREAD", 100)
+    solid = Solid(solid_mesh((8, 8, 8)))
+    drawn = np.unique(solid.faces(VolumeLook(spread=0.5)).simplices)
+    assert set(solid.boundary.simplices.tolist()) < set(drawn.tolist())
+    assert len(drawn) < solid.mesh.simplex_count
+
+
 def test_peeling_leaves_what_has_most_and_what_has_no_number() -> None:
     solid = Solid(solid_mesh())
     values = np.arange(solid.mesh.simplex_count, dtype=np.float32)
@@ -197,13 +194,15 @@ def test_a_cut_shows_the_same_tetrahedra_in_every_view_and_ends(solid_window: Ma
     views = [window.source.view, window.target.view, *(dock.view for dock in window.maps)]
     window.look.cut_along("x")
     window.look.cut.place.setValue(300)
+    qtbot.waitUntil(lambda: window.target.view.surface.ghost.actor.GetVisibility())
     for view in views:
         assert set(view.geometry_shown.faces.simplices.tolist()) < set(range(324))
         assert view.surface._scalars.GetNumberOfTuples() == len(view.geometry_shown.triangles)
         assert view.surface.ghost.actor.GetVisibility()
     window.look.cut.exact.click()
-    assert window.target.view.geometry_shown.faces.made is not None
+    qtbot.waitUntil(lambda: window.target.view.geometry_shown.faces.made is not None)
     window.look.cut_along("")
+    qtbot.waitUntil(lambda: not window.target.view.surface.ghost.actor.GetVisibility())
     for view in views:
         assert np.array_equal(view.geometry_shown.triangles, window.volume.solid.boundary.triangles)
         assert not view.surface.ghost.actor.GetVisibility()
@@ -231,8 +230,8 @@ def test_peeling_by_the_slider_takes_its_share_away_and_is_held_while_the_map_mo
     qtbot.waitUntil(lambda: abs(window.document.positions[0] - window.document.mesh.vertices[0]).min() > 0.3)
     window.look.peel.peel.setValue(750)
     qtbot.waitUntil(lambda: window.volume.look.threshold is not None)
+    qtbot.waitUntil(lambda: len(np.unique(window.target.view.geometry_shown.faces.simplices)) <= 0.26 * 324)
     left = len(set(window.target.view.geometry_shown.faces.simplices.tolist()))
-    assert left <= 0.26 * 324
     held = window.volume.look.threshold
     window.document.move_anchor(0, window.document.positions[0] + 0.3, False)
     qtbot.waitUntil(lambda: len(set(window.target.view.geometry_shown.faces.simplices.tolist())) != left)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,7 @@ from workbench.app.volumes.look_tools import LookTools
 from workbench.app.volumes.volume_view import VolumeView
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
+from workbench.core.errors import WorkbenchError
 TARGET_STYLES = {"plain": "Plain"}
 RIGHT, BOTTOM, LEFT = (
     Qt.DockWidgetArea.RightDockWidgetArea,
@@ -317,4 +319,8 @@ class MainWindow(QMainWindow):
 def _find_methods() -> Any:
     from workbench.core.registry import registry
 
-    return registry()
+    found = registry()
+    for item in found.distortions.values():
+        with suppress(WorkbenchError):  # one of the plane only
+            item.compiled(3)
+    return found

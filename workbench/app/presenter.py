@@ -71,7 +71,11 @@ class Presenter(QObject):
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         brush.changed.connect(self._show_brush)
-        volume.changed.connect(self._look_again)
+        self._late_look = QTimer(self)  # moves of a slider that came while a picture was drawn become one
+        self._late_look.setSingleShot(True)
+        self._late_look.setInterval(0)
+        self._late_look.timeout.connect(self._look_again)
+        volume.changed.connect(self._late_look.start)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         self.clear()
@@ -169,6 +173,8 @@ class Presenter(QObject):
 
     def _look_again(self) -> None:
         """A solid is looked at in another way."""
+        if self._faces is None:
+            return
         solid, look = self._volume.solid, self._volume.look
         self._show_faces()
         shell = solid.boundary.triangles if solid is not None and look.takes_away else None
@@ -231,6 +237,7 @@ class Presenter(QObject):
 
     def stop(self) -> None:
         self._late_marks.stop()
+        self._late_look.stop()
 
     def _draw_marks(self) -> None:
         """Paint the layers above anew; the pictures below stay as they are."""

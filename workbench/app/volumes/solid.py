@@ -15,6 +15,11 @@ from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.facets import facet_table, neighbouring_simplices
 from workbench.core.mesh import Mesh
 
+MOST_SPREAD = 20_000
+"""Tetrahedra up to which all are drawn when they are pulled apart."""
+LAYERS = 2
+"""Layers of them that are drawn beyond that."""
+
 
 class Solid:
     """The tables of a tetrahedral mesh that drawing it needs, made once."""
@@ -58,6 +63,15 @@ class Solid:
         """Tetrahedra that are pulled apart are drawn whole."""
         return look.is_exact and not look.spread > 0
 
+    def _outer_layers(self, visible: Booleans) -> Booleans:
+        """Of very many tetrahedra only those near the surface of the set: gaps between them show no deeper ones."""
+        if np.count_nonzero(visible) <= MOST_SPREAD:
+            return visible
+        hidden = np.append(~visible, True)  # beyond the boundary, which -1 stands for, nothing is seen
+        for _ in range(LAYERS):
+            hidden[:-1] |= hidden[self.neighbours].any(axis=1)
+        return np.asarray(hidden[:-1] & visible)
+
     def faces(
         self,
         look: VolumeLook,
@@ -74,6 +88,7 @@ class Solid:
         heights = look.heights(plane_of) if look.is_cut else None
         visible = self.visible(look, values, marked, heights)
         if look.spread > 0:
+            visible = self._outer_layers(visible)
             return spread_faces(mesh.simplices, visible, look.spread, mesh.vertex_count)
         if heights is not None and self._cuts_through(look):
             return cut_faces(mesh.simplices, self.neighbours, heights, visible)
