@@ -131,6 +131,17 @@ def window(kept_window: MainWindow, qtbot: QtBot) -> MainWindow:
     return kept_window
 
 
+@pytest.fixture
+def solid_window(window: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The window with a solid in it."""
+    window.open("solid")
+    qtbot.waitUntil(lambda: window.document.kind == "volume" and window.document.positions is not None)
+    qtbot.waitUntil(lambda: window.target.view.geometry_shown is not None)
+    QTest.qWait(30)
+    window.commands.fit()
+    return window
+
+
 def pixel_of(view: MeshView, vertex: int) -> QPoint:
     """Where a vertex is drawn."""
     geometry = view.geometry_shown

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from workbench.core.boundary_sides import boundary_edges, boundary_sides
 from workbench.core.facets import facet_table
 from workbench.core.samples import make_sample
 from workbench.core.surface_patch import surface_patches
@@ -35,3 +36,17 @@ def test_what_is_sharp_can_be_said(sharp: float, count: int) -> None:
     points[0] = points[1]
     labels = surface_patches(points, triangles, sharp)
     assert (labels == labels[0]).sum() == 1, "a triangle without an area stands alone"
+
+
+def test_a_bar_has_four_sides_and_a_disc_has_one() -> None:
+    for sample, count in (("bar", 4), ("bumpy-disc", 1)):
+        mesh = make_sample(sample, 600)
+        edges = boundary_edges(mesh.simplices)
+        sides = boundary_sides(mesh.vertices[:, :2], edges)
+        assert sides.max() + 1 == count
+        assert np.bincount(edges.ravel()).max() == 2
+    ends = make_sample("bar", 600)
+    edges = boundary_edges(ends.simplices)
+    sides = boundary_sides(ends.vertices, edges)
+    lengths = [np.ptp(ends.vertices[edges[sides == side]].reshape(-1, 2), axis=0) for side in range(4)]
+    assert sorted(tuple(np.round(length, 12)) for length in lengths) == [(0.0, 1.0), (0.0, 1.0), (4.0, 0.0), (4.0, 0.0)]

@@ -47,6 +47,9 @@ class AnchorTool(NavigationTool):
     drag_cancelled = Signal()
     group_wanted = Signal(object)
     """vertices (k,) that were chosen by a box"""
+    nothing_chosen = Signal()
+    box_ended = Signal()
+    """A box that was announced was drawn, or given up"""
     patch_wanted = Signal(float, float)
     """pixel of what is to be anchored as a whole"""
     anchor_unwanted = Signal(int)
@@ -107,6 +110,7 @@ class AnchorTool(NavigationTool):
             return
         if self._box_armed or event.modifiers() & SHIFT:
             self._box_from = event.position()
+            self._keys.listen(True)
             return
         vertex = self.view.anchor_at(pixel)
         if vertex >= 0:
@@ -210,13 +214,15 @@ class AnchorTool(NavigationTool):
         self._keys.listen(False)
         scene = self.view.overlay.scene
         scene.hold_words, scene.guide = "", None
-        self._end_box()
+        self.end_box()
 
     def cancel(self) -> None:
-        """Take a drag under way back."""
+        """Take a drag under way back, or draw no box."""
         if self._hold is not None:
             self.let_go()
             self.drag_cancelled.emit()
+        else:
+            self.end_box()
 
     def leave(self) -> None:
         self.hovered.emit(-1)
@@ -259,11 +265,12 @@ class AnchorTool(NavigationTool):
     def arm_box(self) -> None:
         """The next drag draws a box."""
         self._box_armed = True
+        self._keys.listen(True)
         self.view.overlay.setCursor(Qt.CursorShape.CrossCursor)
 
     def _close_box(self, event: QMouseEvent) -> None:
         begin, end = self._box_from or event.position(), event.position()
-        self._end_box()
+        self.end_box()
         geometry = self.view.geometry_shown
         if geometry is None or _distance(begin, end) < CLICK_SLACK:
             return
@@ -272,22 +279,26 @@ class AnchorTool(NavigationTool):
         chosen = np.flatnonzero(in_box(pixels[: geometry.vertex_count], corners.min(axis=0), corners.max(axis=0)))
         if not geometry.is_flat and not event.modifiers() & CTRL:
             chosen = visible_points(chosen, pixels, heights, geometry.triangles)
-        self.group_wanted.emit(chosen)
+        if len(chosen):
+            self.group_wanted.emit(chosen)
+        else:
+            self.nothing_chosen.emit()
 
-    def _end_box(self) -> None:
-        self._box_from, self._box_armed = None, False
+    def end_box(self) -> None:
+        """Draw no box, or no longer."""
+        was_armed, self._box_armed, self._box_from = self._box_armed, False, None
         self.view.overlay.scene.box = None
         self.view.overlay.unsetCursor()
         self.view.overlay.update()
+        self._keys.listen(False)
+        if was_armed:
+            self.box_ended.emit()
 
     # ------------------------------------------------------------------------------------------ keys
 
     def _key(self, event: QKeyEvent) -> None:
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             self.numbers_wanted.emit()
-            event.accept()
-        elif event.key() == Qt.Key.Key_Escape and (self._box_armed or self._box_from is not None):
-            self._end_box()
             event.accept()
 
 

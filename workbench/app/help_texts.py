@@ -7,11 +7,18 @@ SHORTCUTS = """
 <table cellspacing="6">
 <tr><td>move</td><td>shows which vertex is meant</td></tr>
 <tr><td>click</td><td>sets an anchor, or selects one</td></tr>
-<tr><td>drag, target</td><td>moves an anchor</td></tr>
-<tr><td>right click</td><td>removes an anchor</td></tr>
+<tr><td>drag, target</td><td>moves an anchor with its group, in the plane of the view</td></tr>
+<tr><td>X, Y, Z while dragging</td><td>along that axis; with Shift in the plane across it; once more: free</td></tr>
+<tr><td>N while dragging</td><td>along the normal</td></tr>
+<tr><td>Esc while dragging</td><td>back to where it was</td></tr>
+<tr><td>arrows and rings</td><td>pull and turn the selected anchors; with Ctrl by stops of 15°</td></tr>
+<tr><td>double click, Enter</td><td>place the selected anchors by numbers</td></tr>
+<tr><td>Alt+click</td><td>anchors a whole face, or side of a figure, as one group</td></tr>
+<tr><td>B, or Shift+drag</td><td>anchors what is seen in a box as one group; with Ctrl also what is behind</td></tr>
+<tr><td>right click</td><td>removes an anchor; elsewhere, and on a group: a menu</td></tr>
 <tr><td>wheel</td><td>zooms at the pointer</td></tr>
 <tr><td>middle drag</td><td>pans</td></tr>
-<tr><td>left drag, source in space</td><td>turns the surface</td></tr>
+<tr><td>left drag, in space</td><td>turns the view</td></tr>
 <tr><td>double click on the background</td><td>fits the view</td></tr>
 </table>
 <h3>Keys</h3>
@@ -21,7 +28,7 @@ SHORTCUTS = """
 <tr><td>Home</td><td>reset to the start</td></tr>
 <tr><td>F</td><td>fit all views</td></tr>
 <tr><td>E</td><td>show or hide edges</td></tr>
-<tr><td>Delete</td><td>remove the selected anchor</td></tr>
+<tr><td>Delete</td><td>remove the selected anchors</td></tr>
 <tr><td>Esc</td><td>clear the brush</td></tr>
 <tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>
 <tr><td>Ctrl+I</td><td>inspector: formula, properties and plots of the distortion</td></tr>

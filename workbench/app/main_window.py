@@ -23,6 +23,7 @@ from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
 from workbench.app.handling.anchor_desk import AnchorDesk
+from workbench.app.handling.anchor_menu import AnchorMenu
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
@@ -92,6 +93,7 @@ class MainWindow(QMainWindow):
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
         self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
         self._make_tools()
+        self.anchor_menu = AnchorMenu(self)
         self.commands = Commands(self)
         fill_menus(self)
         fill_tool_bar(self)

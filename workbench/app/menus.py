@@ -30,7 +30,7 @@ def fill_menus(window: MainWindow) -> None:
     file_menu.addSeparator()
     file_menu.addAction(actions["quit"])
     edit = bar.addMenu("&Edit")
-    for name in ("pin", "remove", "clear"):
+    for name in ("pin", "box", "remove", "clear"):
         edit.addAction(actions[name])
     edit.addSeparator()
     edit.addAction(actions["refine"])

@@ -236,7 +236,7 @@ class Reporter(QObject):
         window, document = self._window, self._document
         has_mesh = document.mesh is not None
         show_running(window.actions_by_name["run"], document.is_at_work, window.theme)
-        for name in ("run", "step", "reset", "save", "refine", "pin", "clear", "fit"):
+        for name in ("run", "step", "reset", "save", "refine", "pin", "box", "clear", "fit"):
             window.actions_by_name[name].setEnabled(has_mesh)
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from workbench.app.views.camera import Pixel, Size, ViewCamera
+from workbench.app.views.picking import segment_distances
 from workbench.core.arrays import Booleans, Floats
 
 ARROW, RADIUS, GAP = 88.0, 62.0, 14.0
@@ -85,8 +86,5 @@ def _handle(kind: str, axis: int, places: Floats, middle: Floats, camera: ViewCa
 
 def _distance(line: Floats, is_front: Booleans, pixel: Floats) -> float:
     """Pixels from a polyline; its far parts count for half of their reach."""
-    begin, step = line[:-1], np.diff(line, axis=0)
-    square = np.maximum(np.einsum("ij,ij->i", step, step), 1e-12)
-    along = np.clip(np.einsum("ij,ij->i", pixel - begin, step) / square, 0.0, 1.0)
-    away = np.linalg.norm(begin + along[:, None] * step - pixel, axis=1)
+    away = segment_distances(np.stack([line[:-1], line[1:]], axis=1), pixel)
     return float((away * np.where(is_front[:-1] | is_front[1:], 1.0, 2.0)).min())

@@ -19,6 +19,14 @@ def nearest_pixel(pixels: Floats, at: tuple[float, float], reach: float) -> int:
     return best if square[best] <= reach * reach else -1
 
 
+def segment_distances(segments: Floats, point: Floats) -> Floats:
+    """(k,) distances of a point (2,) from segments (k, 2, 2)."""
+    begin, step = segments[:, 0], segments[:, 1] - segments[:, 0]
+    square = np.maximum(np.einsum("ij,ij->i", step, step), 1e-12)
+    along = np.clip(np.einsum("ij,ij->i", point - begin, step) / square, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(begin + along[:, None] * step - point, axis=1))
+
+
 class ScreenTriangles:
     """Triangles as they lie in a widget, prepared for many questions at one camera.
 

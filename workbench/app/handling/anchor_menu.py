@@ -1,0 +1,129 @@
+"""What the right button, keys and tools ask of anchors beyond dragging: whole patches, boxes, numbers, groups."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QPoint
+from PySide6.QtWidgets import QMenu
+
+from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.patches import Patches
+from workbench.app.handling.place_dialog import PlaceDialog
+from workbench.app.handling.rigid_motion import RigidMotion
+from workbench.app.views.camera import Pixel
+from workbench.app.views.mesh_view import MeshView
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+
+class AnchorMenu(QObject):
+    """Connects both tools of a window to its desk and document."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document, self._desk = window.document, window.desk
+        self._patches: Patches | None = None
+        self.menu: QMenu | None = None
+        self.dialog: PlaceDialog | None = None
+        for tool, other in ((window.source_tool, window.target_tool), (window.target_tool, window.source_tool)):
+            tool.box_ended.connect(other.end_box)
+            tool.patch_wanted.connect(lambda x, y, t=tool: self.anchor_patch(t.view, (x, y)))
+            tool.menu_wanted.connect(lambda vertex, x, y, t=tool: self._open(t, vertex, (x, y)))
+            tool.numbers_wanted.connect(self.ask_numbers)
+            tool.nothing_chosen.connect(lambda: window.status.say("No vertex is in the box."))
+        self._document.opened.connect(self._forget)
+        self._document.anchors_changed.connect(self._show_numbers)
+        self._document.selection_changed.connect(self._show_numbers)
+
+    def _forget(self) -> None:
+        self._patches = None
+        if self.dialog is not None:
+            self.dialog.close()
+
+    # ------------------------------------------------------------------------------------------ menu
+
+    def _open(self, tool: AnchorTool, vertex: int, pixel: Pixel) -> None:
+        view, document, desk = tool.view, self._document, self._desk
+        menu = QMenu(self._window)
+        if vertex >= 0:
+            document.select(vertex)
+            count = len(document.selected_anchors)
+            menu.addAction("Place by numbers…").triggered.connect(self.ask_numbers)
+            menu.addSeparator()
+            menu.addAction(f"Let go of all {count} of the group").triggered.connect(desk.remove_selected)
+            menu.addAction("Let go of this anchor").triggered.connect(lambda: document.remove_anchor(vertex))
+            menu.addAction("Let each move alone").triggered.connect(desk.split_selected)
+        else:
+            near = view.vertex_at(pixel)
+            action = menu.addAction("Anchor this vertex")
+            action.setEnabled(near >= 0)
+            action.triggered.connect(lambda: document.add_anchor(near))
+            noun = "side" if self._patches_now().is_figure else "face"
+            action = menu.addAction(f"Anchor this {noun}\tAlt+click")
+            action.triggered.connect(lambda: self.anchor_patch(view, pixel))
+            menu.addAction(self._window.actions_by_name["box"])
+            menu.addSeparator()
+            for name in ("pin", "clear"):
+                menu.addAction(self._window.actions_by_name[name])
+        menu.aboutToHide.connect(menu.deleteLater)
+        self.menu = menu
+        menu.popup(view.overlay.mapToGlobal(QPoint(round(pixel[0]), round(pixel[1]))))
+
+    # ------------------------------------------------------------------------------------------ patches
+
+    def anchor_patch(self, view: MeshView, pixel: Pixel) -> None:
+        """Anchor the whole face of a solid or a surface, or side of a figure, under a pixel, as one group."""
+        patches = self._patches_now()
+        vertices = patches.vertices_at(view, pixel)
+        self._desk.add_group(vertices)
+        if len(vertices):
+            self._window.status.say(f"{len(vertices)} anchors that move together: drag one, or the arrows and rings.")
+        else:
+            what = "a side of the figure" if patches.is_figure else "the boundary"
+            self._window.status.say(f"There is no part of {what} here; click nearer to it.")
+
+    def _patches_now(self) -> Patches:
+        loaded = self._document.loaded
+        assert loaded is not None
+        if self._patches is None:
+            self._patches = Patches(loaded.mesh, loaded.neighbours)
+        return self._patches
+
+    # ------------------------------------------------------------------------------------------ boxes
+
+    def arm_box(self) -> None:
+        """The next drag in either view draws a box."""
+        for tool in (self._window.source_tool, self._window.target_tool):
+            tool.arm_box()
+        self._window.status.say("Drag a box round vertices to anchor them as one group; with Ctrl also those behind. Esc ends.")
+
+    # ------------------------------------------------------------------------------------------ numbers
+
+    def ask_numbers(self) -> None:
+        """A small dialog for the selected anchors; it stays open while others are selected."""
+        if not len(self._document.selected_anchors):
+            return
+        if self.dialog is None:
+            self.dialog = PlaceDialog(self._window)
+            self.dialog.motion_wanted.connect(self._place)
+            self.dialog.finished.connect(self._closed)
+        self._show_numbers()
+        self.dialog.show()
+        self.dialog.raise_()
+        self.dialog.places[0].setFocus()
+        self.dialog.places[0].selectAll()
+
+    def _closed(self) -> None:
+        self.dialog = None
+
+    def _show_numbers(self) -> None:
+        vertices = self._document.selected_anchors
+        if self.dialog is not None and len(vertices) and not self._desk.is_turning:
+            self.dialog.show_anchors(vertices, self._document.anchors.targets_of(vertices))
+
+    def _place(self, motion: RigidMotion) -> None:
+        self._desk.take_up()
+        self._desk.move(motion, False)
