@@ -15,8 +15,9 @@ from workbench.app.help_texts import ABOUT, SHORTCUTS
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
 from workbench.app.reporter import source_name
-from workbench.app.saving import FILTERS, Saver, SaveRequest
+from workbench.app.saving import FILTERS, SURFACE_FILTERS, Saver, SaveRequest
 from workbench.app.switches import name_of_distortion
+from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
     from workbench.app.dissection.dissection_window import DissectionWindow
@@ -43,6 +44,8 @@ class Commands(QObject):
         self.dissection: DissectionWindow | None = None
         self.refining = Refining(window)
         self.racing = Racing(window)
+        window.carried.told.connect(window.status.say)
+        window.carried.refused.connect(self._carried_refused)
         document = window.document
         deeds: dict[str, Any] = {
             "open": self.ask_open,
@@ -97,11 +100,15 @@ class Commands(QObject):
 
     def ask_save(self) -> None:
         name = Path(self._document.session.source.replace("sample:", "")).stem + "-map.obj"
-        dialog = QFileDialog(self._window, "Save the map", str(Path(self._window.settings.folder) / name), FILTERS)
+        self._ask_place("Save the map", name, FILTERS, self.save_map)
+
+    def _ask_place(self, title: str, name: str, filters: str, deed: Any) -> None:
+        """Ask for a file to write; its ending is that of the filter, OBJ first."""
+        dialog = QFileDialog(self._window, title, str(Path(self._window.settings.folder) / name), filters)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
         dialog.setDefaultSuffix("obj")
         dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(suffix_of(chosen)))
-        self._ask(dialog, self.save_map)
+        self._ask(dialog, deed)
 
     def save_map(self, path: str) -> None:
         """Write the map as it is now; the window goes on meanwhile."""
@@ -121,6 +128,25 @@ class Commands(QObject):
                 anchors.target_array(dimension),
             )
         )
+
+    def ask_carry(self) -> None:
+        dialog = QFileDialog(self._window, "Carry a surface inside the solid", self._window.settings.folder, MESH_FILTERS)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        self._ask(dialog, self._window.carried.read)
+
+    def _carried_refused(self, error: Exception) -> None:
+        if isinstance(error, WorkbenchError):
+            self._window.error_bar.show_message(error.sentence)
+            self._window.status.say("The surface is not carried.")
+        else:
+            self._window.reporter.show_exception(error)
+
+    def ask_save_carried(self) -> None:
+        """Ask where the carried surface goes."""
+        surface = self._window.carried.surface
+        if surface is not None:
+            name = Path(surface.surface.name).stem.lower() + "-carried.obj"
+            self._ask_place("Save the carried surface", name, SURFACE_FILTERS, self._window.carried.save)
 
     def ask_screenshot(self, widget: QWidget, name: str) -> None:
         folder = Path(self._window.settings.folder)

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QSplitter, QVBox
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.background import Background
+from workbench.app.carrying.carried_view import CarriedView
 from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
 from workbench.app.docks.colour_map_dock import ColourMapDock
@@ -44,9 +45,9 @@ from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.look_tools import LookTools
 from workbench.app.volumes.volume_view import VolumeView
+from workbench.core.errors import WorkbenchError
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
-from workbench.core.errors import WorkbenchError
 TARGET_STYLES = {"plain": "Plain"}
 RIGHT, BOTTOM, LEFT = (
     Qt.DockWidgetArea.RightDockWidgetArea,
@@ -89,6 +90,7 @@ class MainWindow(QMainWindow):
             self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush, self.volume
         )
         self.look = LookTools(self.volume, self.quantities, self.source, self.target, [dock.view for dock in self.maps])
+        self.carried = CarriedView(self.document, (self.source, self.target), self.target, self)
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
         self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
@@ -251,8 +253,8 @@ class MainWindow(QMainWindow):
     def _apply_theme(self, theme: Theme) -> None:
         self.setStyleSheet(style_sheet(theme))
         set_icons(self.actions_by_name, theme)
-        parts: tuple[Any, ...] = (self.source, self.target, self.histogram, self.convergence, self.inspector, self.error_bar)
-        for part in (*self.maps, *parts):
+        views: tuple[Any, ...] = (self.source, self.target, self.carried, *self.maps)
+        for part in (*views, self.histogram, self.convergence, self.inspector, self.error_bar):
             part.set_theme(theme)
         self.reporter.show_running()
 
@@ -312,6 +314,7 @@ class MainWindow(QMainWindow):
             self._finder.wait()
             self.inspector.wait()
             self.commands.wait()
+            self.carried.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()
@@ -319,6 +322,7 @@ class MainWindow(QMainWindow):
 
 
 def _find_methods() -> Any:
+    """Every method, its formula made ready for tetrahedra, too: the first solid then opens without a pause."""
     from workbench.core.registry import registry
 
     found = registry()

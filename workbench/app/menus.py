@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
+from workbench.app.document import SAMPLE
 from workbench.app.reporter import source_name
+from workbench.core.samples import sample_label
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+
+
+CARRIED_SAMPLE = "salamander"
 
 
 def fill_menus(window: MainWindow) -> None:
@@ -25,6 +31,8 @@ def fill_menus(window: MainWindow) -> None:
     samples.aboutToShow.connect(lambda: fill_samples(window, samples))
     file_menu.addSeparator()
     file_menu.addAction(actions["save"])
+    carried = file_menu.addMenu("Carry a sur&face")
+    carried.aboutToShow.connect(lambda: fill_carried(window, carried))
     screenshots = file_menu.addMenu("S&creenshot of")
     screenshots.aboutToShow.connect(lambda: fill_screenshots(window, screenshots))
     file_menu.addSeparator()
@@ -53,6 +61,23 @@ def fill_menus(window: MainWindow) -> None:
     help_menu = bar.addMenu("&Help")
     for name in ("shortcuts", "report", "about"):
         help_menu.addAction(actions[name])
+
+
+def fill_carried(window: MainWindow, menu: QMenu) -> None:
+    """Where a surface comes from that the solid carries, and where it goes."""
+    menu.clear()
+    commands, carried = window.commands, window.carried
+    entries: tuple[tuple[str, bool, Callable[[], None]], ...] = (
+        ("&From a file…", carried.is_possible, commands.ask_carry),
+        (f"&Sample: {sample_label(CARRIED_SAMPLE)}", carried.is_possible, lambda: carried.read(SAMPLE + CARRIED_SAMPLE)),
+        ("", False, lambda: None),
+        ("Save the &carried surface…", carried.surface is not None, commands.ask_save_carried),
+        ("&Let it go", carried.surface is not None, carried.let_go),
+    )
+    for text, is_possible, deed in entries:
+        action = menu.addAction(text) if text else menu.addSeparator()
+        action.setEnabled(is_possible)
+        action.triggered.connect(lambda _=False, d=deed: d())
 
 
 def fill_screenshots(window: MainWindow, menu: QMenu) -> None:

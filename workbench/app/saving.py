@@ -18,6 +18,11 @@ FILTERS = (
     "CSV of the measures (*.csv);;All files (*)"
 )
 
+SURFACE_FILTERS = (
+    "OBJ, faces kept (*.obj);;NumPy, source and map (*.npz);;VTK with fields (*.vtu);;CSV of the measures (*.csv);;"
+    "All files (*)"
+)
+
 
 @dataclass(frozen=True, eq=False)
 class SaveRequest:

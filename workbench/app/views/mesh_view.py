@@ -73,6 +73,14 @@ class MeshView(QWidget):
         self._screen = None
         self.refresh()
 
+    def add_actor(self, actor: Any) -> None:
+        """Draw something beside the mesh, in the units of its display; it stays when another mesh comes."""
+        self._renderer.AddActor(actor)
+
+    def remove_actor(self, actor: Any) -> None:
+        self._renderer.RemoveActor(actor)
+        self.refresh()
+
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme
         self.overlay.theme = theme

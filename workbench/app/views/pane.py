@@ -58,6 +58,10 @@ class ViewPane(QWidget):
         """Put a row of controls between the title and the view."""
         self._layout.insertWidget(1, tools)
 
+    def add_below(self, widget: QWidget) -> None:
+        """Put a widget below the view and its colour bar."""
+        self._layout.addWidget(widget)
+
     def offers(self, style: str) -> bool:
         """Whether a pattern is one of this view's."""
         return style in self._styles

@@ -94,6 +94,12 @@ class Surface:
     def set_edges(self, visible: bool) -> None:
         self._actor.GetProperty().SetEdgeVisibility(visible)
 
+    def set_opacity(self, opacity: float) -> None:
+        """Draw the triangles as a veil before what is behind them; 1 hides it, 0 hides the triangles."""
+        style = self._actor.GetProperty()
+        style.SetOpacity(opacity)
+        style.SetBackfaceCulling(opacity < 1.0 and not self.geometry.is_flat)  # one layer of the veil, not two
+
     @property
     def has_edges(self) -> bool:
         return bool(self._actor.GetProperty().GetEdgeVisibility())

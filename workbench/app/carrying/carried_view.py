@@ -1,0 +1,172 @@
+"""The carried surface of the window: read on a thread, drawn in source and target with every map, saved."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.background import Background
+from workbench.app.carrying.carried_bar import FIRST_OPACITY, CarriedBar
+from workbench.app.carrying.carried_layer import CarriedLayer
+from workbench.app.colour_range import ColourRange
+from workbench.app.document import Document
+from workbench.app.quantities import Quantity
+from workbench.app.views.pane import ViewPane
+from workbench.core.arrays import Floats
+from workbench.core.carried_surface import CarriedSurface, carry
+from workbench.core.mesh import Mesh
+from workbench.io.opening import read_source
+from workbench.io.write import write_surface
+
+OWN_DISTORTION = Quantity(
+    "symmetric-dirichlet", "Symmetric Dirichlet of the carried surface", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0, least_span=0.01
+)
+"""Of the map of the surface alone, n = 2: it has a range of its own beside that of the solid."""
+
+
+class CarriedView(QObject):
+    """One surface at a time; another mesh lets it go."""
+
+    told = Signal(str)
+    """What has been done, for the status bar."""
+    refused = Signal(object)
+    """The exception that kept a surface from being read or written."""
+
+    def __init__(
+        self, document: Document, panes: Sequence[ViewPane], bar_below: ViewPane, parent: QObject | None = None
+    ) -> None:
+        """`panes`: source, target."""
+        super().__init__(parent)
+        self._document = document
+        self._panes = tuple(panes)
+        self.range = ColourRange(OWN_DISTORTION)
+        self.range.setParent(self)
+        self.bar = CarriedBar(self.range, bar_below)
+        bar_below.add_below(self.bar)
+        self.surface: CarriedSurface | None = None
+        self._layers: list[CarriedLayer] = []
+        self._work: Background | None = None
+        self.opacity = FIRST_OPACITY
+        self.bar.opacity_chosen.connect(self.set_opacity)
+        self.bar.dismissed.connect(self.let_go)
+        self.range.changed.connect(self._show_range)
+        document.opened.connect(self.let_go)
+        document.snapshot_taken.connect(self.show_map)
+
+    @property
+    def is_possible(self) -> bool:
+        """Whether there is a solid to carry a surface."""
+        return self._document.mesh is not None and self._document.kind == "volume"
+
+    @property
+    def is_busy(self) -> bool:
+        return self._work is not None
+
+    # ------------------------------------------------------------------------------------------ reading and writing
+
+    def read(self, source: str) -> None:
+        """Carry the surface of a file, or `sample:ID`; places are found on a thread while the window goes on."""
+        mesh = self._document.mesh
+        if mesh is None or not self.is_possible or self.is_busy:
+            return
+        self.told.emit("Looking where the surface lies in the solid…")
+        self._begin(lambda: carry(read_source(source).mesh, mesh), lambda found: self._take(found, mesh))
+
+    def save(self, path: str) -> None:
+        """Write the surface as it is now."""
+        positions = self._document.positions
+        if self.surface is None or positions is None or self.is_busy:
+            return
+        surface = self.surface
+        self._begin(
+            lambda: write_surface(path, surface.surface, surface.at(positions)),
+            lambda _: self.told.emit(f"Saved {path}."),
+        )
+
+    def _begin(self, work: Any, then: Any) -> None:
+        self._work = Background(work, self)
+
+        def end(deed: Any, result: Any) -> None:
+            self._work = None
+            deed(result)
+
+        self._work.finished.connect(lambda result: end(then, result))
+        self._work.failed.connect(lambda error: end(self.refused.emit, error))
+        self._work.start()
+
+    def wait(self) -> None:
+        if self._work is not None:
+            self._work.wait()
+
+    def _take(self, found: CarriedSurface, mesh: Mesh) -> None:
+        if self._document.mesh is not mesh:
+            return  # another mesh was opened meanwhile
+        self.let_go()
+        self.surface = found
+        surface = found.surface
+        self._layers = [CarriedLayer(pane.view, surface.simplices, surface.vertex_count) for pane in self._panes]
+        self.range.forget()
+        self.bar.caption.setText(f"{Path(surface.name).stem}, {surface.simplex_count} triangles")
+        self.bar.show()
+        self.set_opacity(self.opacity)
+        self.show_map()
+        self._show_range()
+        self.told.emit(found.note or f"The map carries {surface.name}.")
+
+    # ------------------------------------------------------------------------------------------ drawing
+
+    def show_map(self) -> None:
+        """Bring the surface in line with the newest map."""
+        positions = self._document.positions
+        if self.surface is None or positions is None:
+            return
+        moved = self.surface.at(positions)
+        values = self.values(moved)
+        self.range.take(values)
+        self.bar.legend.show_values(values)
+        for layer, vertices in zip(self._layers, (self.surface.surface.vertices, moved), strict=True):
+            layer.show(vertices, values)
+        self._refresh()
+
+    def values(self, moved: Floats) -> Floats:
+        """The surface's own distortion (m,) where its vertices are at `moved` (k, 3)."""
+        assert self.surface is not None
+        measure = OWN_DISTORTION.measure
+        return self.surface.measures(moved, (measure,))[measure.id]
+
+    def _show_range(self) -> None:
+        self.bar.legend.show_range(self.range)
+        for layer in self._layers:
+            layer.show_range(self.range)
+        self._refresh()
+
+    def set_opacity(self, opacity: float) -> None:
+        """How much of the solid is seen while a surface is carried: 0 nothing, 1 nothing but the solid."""
+        self.opacity = opacity
+        self._set_solid(opacity)
+
+    def _set_solid(self, opacity: float) -> None:
+        for pane in self._panes:
+            if self.surface is not None and pane.view.surface is not None:
+                pane.view.surface.set_opacity(opacity)
+        self._refresh()
+
+    def _refresh(self) -> None:
+        for pane in self._panes:
+            pane.view.refresh()
+
+    def set_theme(self, theme: Any) -> None:
+        self.bar.set_theme(theme)
+
+    def let_go(self) -> None:
+        """Carry nothing any longer; the solid is drawn as before."""
+        self._set_solid(1.0)
+        for layer in self._layers:
+            layer.remove()
+        self._layers = []
+        self.surface = None
+        self.bar.hide()
+        self._refresh()
