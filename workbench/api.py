@@ -29,6 +29,7 @@ from workbench.core.initializer import Initializer, StartRequest
 from workbench.core.laplacian_system import LaplacianSystem
 from workbench.core.limited_memory import Pair, inner, make_pair
 from workbench.core.line_search import SAFETY, armijo, largest_step, largest_step_without_inversion
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.linear_maps import (
     conformal_energy,
     dirichlet_matrix,
@@ -37,7 +38,6 @@ from workbench.core.linear_maps import (
     signed_areas,
     upright,
 )
-from workbench.core.linear_solver import SingularMatrixError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind, Parameter, parameter
 from workbench.core.metrics import killing_energy, reweighted_laplacian

@@ -21,7 +21,8 @@ from workbench.core.line_search import (
     smallest_positive_root_cubic,
     smallest_positive_root_quadratic,
 )
-from workbench.core.linear_solver import BACK_ENDS, SingularMatrixError, available_back_ends
+from workbench.core.linear_back_end import SingularMatrixError
+from workbench.core.linear_solver import BACK_ENDS, available_back_ends
 from workbench.core.newton_system import NewtonSystem
 from workbench.core.problem import Problem
 from workbench.core.registry import registry

@@ -19,7 +19,7 @@ from workbench.core.anchor_response import AnchorResponse, displacement_shapes
 from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
-from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.state import Approach, State
 from workbench.core.status import Status
 

@@ -12,7 +12,7 @@ from workbench.core.anchor_steps import approach_anchors
 from workbench.core.arrays import Floats
 from workbench.core.descent import derivatives_at, is_finite
 from workbench.core.energy import Evaluation
-from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.newton_system import SHIFTS
 from workbench.core.solver import Interrupt, Solver, never
 from workbench.core.state import State

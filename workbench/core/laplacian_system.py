@@ -10,7 +10,7 @@ import numpy as np
 from workbench.core.arrays import Floats, Integers
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.jacobians import Elements
-from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.newton_system import NewtonSystem
 from workbench.core.pattern import HessianPattern
 

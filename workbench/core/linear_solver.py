@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from abc import ABC, abstractmethod
 
 import numpy as np
 from scipy import sparse
@@ -12,29 +11,9 @@ from scipy.sparse import linalg
 from workbench.core.arrays import Floats
 from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_pattern
 from workbench.core.cholmod_library import load_cvxopt
+from workbench.core.conjugate_gradients import ConjugateGradients
+from workbench.core.linear_back_end import LinearSolver, SingularMatrixError
 from workbench.core.pattern import HessianPattern
-
-
-class SingularMatrixError(Exception):
-    """The matrix is not positive definite to working precision."""
-
-
-class LinearSolver(ABC):
-    """Factorises symmetric positive definite matrices that share one pattern."""
-
-    name: str
-
-    @abstractmethod
-    def __init__(self, pattern: HessianPattern) -> None:
-        """Symbolic analysis of the pattern."""
-
-    @abstractmethod
-    def factorise(self, values: Floats) -> None:
-        """Numeric factorisation; (nnz,) values on the pattern. Raises `SingularMatrixError`."""
-
-    @abstractmethod
-    def solve(self, rhs: Floats) -> Floats:
-        """(N,) or (N, k) right-hand sides, in the order of the matrix; returns a new array. Needs a factorisation."""
 
 
 class Cholmod(LinearSolver):
@@ -155,7 +134,9 @@ class Multifrontal(LinearSolver):
         return self._factor.solve(rhs)
 
 
-BACK_ENDS: dict[str, type[LinearSolver]] = {back_end.name: back_end for back_end in (Multifrontal, Cholmod, Pardiso, SuperLU)}
+BACK_ENDS: dict[str, type[LinearSolver]] = {
+    back_end.name: back_end for back_end in (Multifrontal, Cholmod, Pardiso, SuperLU, ConjugateGradients)
+}
 
 
 def available_back_ends() -> tuple[str, ...]:

@@ -9,7 +9,8 @@ import numpy as np
 from workbench.core.anchor_response import AnchorResponse
 from workbench.core.arrays import Floats, Integers
 from workbench.core.constraints import LinearConstraints
-from workbench.core.linear_solver import LinearSolver, SingularMatrixError, make_linear_solver
+from workbench.core.linear_back_end import LinearSolver, SingularMatrixError
+from workbench.core.linear_solver import make_linear_solver
 from workbench.core.pattern import HessianPattern
 
 SHIFTS = (1e-10, 1e-8, 1e-6, 1e-4)

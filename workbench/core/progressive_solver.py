@@ -10,7 +10,7 @@ from workbench.core.descent import Derivatives, descend
 from workbench.core.descent_solver import DescentSolver, direction_in_metric
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY
-from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.method import parameter
 from workbench.core.progressive_reference import progressive_problem
 from workbench.core.solver import Interrupt

@@ -22,7 +22,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.distortion import Distortion
 from workbench.core.energy import Energy
 from workbench.core.jacobians import Elements
-from workbench.core.linear_solver import SingularMatrixError
+from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.newton_system import NewtonSystem
 from workbench.core.problem import Problem
 from workbench.core.state import State
