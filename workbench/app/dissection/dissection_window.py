@@ -127,15 +127,17 @@ class DissectionWindow(QDialog):
         positions = step.before.positions + t * step.direction
         geometry.write(positions)
         self.view.points_changed()
-        surface.set_values(None, _inverted(positions, geometry.triangles))
-        begins = geometry.frame.to_display(positions)
-        ends = geometry.frame.to_display(positions + step.direction)
+        surface.set_values(None, _inverted(positions, geometry.simplices))
+        seen = np.unique(geometry.triangles)  # of a solid, arrows inside would be drawn over it
+        begins = geometry.frame.to_display(positions[seen])
+        ends = geometry.frame.to_display(positions[seen] + step.direction[seen])
         self.arrows.show_arrows(begins, ends - begins)
         scene = self.view.overlay.scene
         scene.limiting = None
         if step.limiting_simplex >= 0:
-            scene.limiting = geometry.points[geometry.triangles[step.limiting_simplex]]
-            scene.limiting_label = f"triangle {step.limiting_simplex} inverts at t = {step.bound:.4g}"
+            scene.limiting = geometry.points[geometry.simplices[step.limiting_simplex]]
+            noun = "triangle" if geometry.simplices.shape[1] == 3 else "tetrahedron"
+            scene.limiting_label = f"{noun} {step.limiting_simplex} inverts at t = {step.bound:.4g}"
         self.view.refresh()
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -148,17 +150,16 @@ class DissectionWindow(QDialog):
         super().closeEvent(event)
 
 
-def _inverted(positions: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Triangles (m,) bool that do not turn counter-clockwise."""
-    a, b, c = (positions[triangles[:, corner]] for corner in range(3))
-    u, v = b - a, c - a
-    return np.asarray(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] <= 0)
+def _inverted(positions: np.ndarray, simplices: np.ndarray) -> np.ndarray:
+    """Simplices (m,) bool that are not positively oriented."""
+    corners = positions[simplices]
+    return np.asarray(np.linalg.det(corners[:, 1:] - corners[:, :1]) <= 0)
 
 
 def _words(report: Dissected) -> str:
     step = report.step
     count = len(step.trial_sizes)
-    bound = f"it may go to t = {step.bound:.4g} before a triangle inverts" if math.isfinite(step.bound) else "nothing bounds it"
+    bound = f"it may go to t = {step.bound:.4g} before a simplex inverts" if math.isfinite(step.bound) else "nothing bounds it"
     if step.step_size > 0:
         change = step.after.energy - step.before.energy
         sign, towards = ("+", ", towards its anchors") if change > 0 else ("−", "")

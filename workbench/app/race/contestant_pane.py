@@ -58,6 +58,7 @@ class ContestantPane(QWidget):
         self.setObjectName("contestant")
         self.shown = index
         self.is_flipped = False
+        self.is_reference = False
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -109,14 +110,14 @@ class ContestantPane(QWidget):
         """Another race: its start, in the frame that all views share."""
         self.geometry_shown = Geometry(start, mesh.simplices)
         self.view.show_geometry(self.geometry_shown)
+        self._show_anchors(anchors)
+
+    def _show_anchors(self, anchors: SetAnchors) -> None:
+        """Discs at the targets of the map that is drawn, and where their vertices are."""
+        assert self.geometry_shown is not None
         scene = self.view.overlay.scene
         scene.anchor_vertices = anchors.vertices
         scene.anchor_points = self.geometry_shown.frame.to_display(anchors.targets) if len(anchors.vertices) else _NOWHERE
-        self._move_anchors()
-
-    def _move_anchors(self) -> None:
-        assert self.geometry_shown is not None
-        scene = self.view.overlay.scene
         scene.vertex_points = self.geometry_shown.points[scene.anchor_vertices]
 
     def show_map(self, record: RaceRecord, values: Floats | None) -> None:
@@ -125,9 +126,9 @@ class ContestantPane(QWidget):
         if frame is None or frame.positions is None or surface is None or self.geometry_shown is None:
             return
         self.geometry_shown.write(frame.positions)
-        self._move_anchors()
+        self._show_anchors(record.anchors)
         self.view.points_changed()
-        inverted = frame.inverted if frame.inverted is not None else np.zeros(len(self.geometry_shown.triangles), dtype=bool)
+        inverted = frame.inverted if frame.inverted is not None else np.zeros(len(self.geometry_shown.simplices), dtype=bool)
         surface.set_values(values, inverted)
         self.view.refresh()
         self.view.canvas.draw_now()
@@ -136,7 +137,8 @@ class ContestantPane(QWidget):
         """Name, numbers and how it stands."""
         frame = record.frame
         self.swatch.setPixmap(swatch_of(self.shown))
-        self.name.setText(f"{record.label}  (flipped)" if self.is_flipped else record.label)
+        notes = (("flipped",) if self.is_flipped else ()) + (("A, with which the others are compared",) if self.is_reference else ())
+        self.name.setText(f"{record.label}  ({'; '.join(notes)})" if notes else record.label)
         self.switch_action.setEnabled(frame is not None)
         self.take_action.setEnabled(frame is not None)
         if frame is None:
@@ -153,7 +155,9 @@ class ContestantPane(QWidget):
         mean = float(means[place]) if len(means) else math.nan
         inverted = f" · {frame.inverted_count} inverted" if frame.inverted_count else ""
         shown = f"{mean:.6g}" if math.isfinite(mean) else "∞"
-        self.numbers.setText(f"iteration {frame.iteration} · {frame.seconds:.2f} s · mean {shown}{inverted}")
+        # a map of an earlier moment, beside how its solver stands now
+        iteration = f"{frame.iteration} of {record.iterations}" if frame.iteration < record.iterations else f"{frame.iteration}"
+        self.numbers.setText(f"iteration {iteration} · {frame.seconds:.2f} s · mean {shown}{inverted}")
 
 
 _NOWHERE = np.empty((0, 3))
