@@ -12,7 +12,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
-from workbench.core.samples import closed, figure, fingers, grids, salamander
+from workbench.core.samples import closed, extrusion, figure, fingers, grids, salamander, solids
 
 
 @dataclass(frozen=True)
@@ -46,6 +46,7 @@ class _Recipe:
     simplices: int
     places: tuple[tuple[float, ...], ...] = ()  # where the anchors are, on the sample
     fixes: tuple[str, ...] = ()
+    least: int = 50  # simplices; with fewer, triangles are larger than what they shall show
 
 
 _BAR_ENDS = ((0.0, 0.0), (0.0, 1.0), (4.0, 0.0), (4.0, 1.0))
@@ -78,6 +79,7 @@ _RECIPES: dict[str, _Recipe] = {
         "A half ball with five fingers: the tips shrink to specks in a Tutte start.",
         fingers.fingers,
         6000,
+        least=1200,
     ),
     "hilbert": _Recipe(
         "Hilbert strip",
@@ -112,6 +114,30 @@ _RECIPES: dict[str, _Recipe] = {
     ),
     "bar-3d": _Recipe("Solid bar", "volume", "A bar of tetrahedra, to bend and twist.", grids.solid_bar, 3000, _SOLID_ENDS),
     "ball": _Recipe("Ball", "volume", "A ball of tetrahedra.", closed.ball, 4320, ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0))),
+    "beam-3d": _Recipe(
+        "Beam with a hole",
+        "volume",
+        "A solid beam with a round hole through its middle: genus 1.",
+        extrusion.beam_with_hole,
+        5000,
+        tuple((x, y, z) for x in (0.0, extrusion.BEAM[0]) for y in (0.0, extrusion.BEAM[1]) for z in (0.0, extrusion.BEAM[2])),
+    ),
+    "gingerbread-3d": _Recipe(
+        "Solid gingerbread man",
+        "volume",
+        "The figure with round limbs, of tetrahedra, with anchors in hands, feet and head.",
+        solids.solid_gingerbread,
+        6000,
+        solids.FIGURE_PLACES,
+    ),
+    "blob-3d": _Recipe(
+        "Solid blob",
+        "volume",
+        "A rounded lump of tetrahedra, star-shaped: the start radial-stretch maps it onto a ball (Fig. 1).",
+        solids.solid_blob,
+        6000,
+        solids.BLOB_PLACES,
+    ),
 }
 
 
@@ -138,8 +164,8 @@ def make_sample(id: str, triangles: int | None = None) -> Mesh:
     """
     recipe = _recipe(id)
     count = recipe.simplices if triangles is None else int(triangles)
-    if not 50 <= count <= 5_000_000:
-        raise WorkbenchError(f"A sample of {count} simplices cannot be made; ask for 50 to 5000000.")
+    if not recipe.least <= count <= 5_000_000:
+        raise WorkbenchError(f"The sample {id} cannot be made of {count} simplices; ask for {recipe.least} to 5000000.")
     vertices, simplices = recipe.make(count)
     return Mesh(vertices, simplices, name=recipe.label)
 

@@ -12,11 +12,16 @@ def blob(triangles: int) -> tuple[Floats, Integers]:
     """Vertices (n, 3) and triangles of a rounded lump: genus 0, no boundary."""
     vertices, simplices = subdivide(*_icosahedron(), max(1, round(np.sqrt(triangles / 20.0))))
     vertices = vertices / np.linalg.norm(vertices, axis=1, keepdims=True)
+    return vertices * blob_radius(vertices)[:, None], simplices
+
+
+def blob_radius(directions: Floats) -> Floats:
+    """How far the blob reaches in each direction (k, 3) of unit length."""
     lumps = np.array([(0.9, 0.2, 0.4), (-0.6, 0.7, 0.3), (-0.2, -0.5, 0.85), (0.1, 0.3, -0.95), (0.3, -0.9, -0.3)])
     lumps /= np.linalg.norm(lumps, axis=1, keepdims=True)
     sizes = np.array([0.55, 0.42, 0.48, 0.36, 0.30])
-    radius = 0.8 + np.exp(6.0 * (vertices @ lumps.T - 1.0)) @ sizes
-    return vertices * radius[:, None], simplices
+    radius: Floats = 0.8 + np.exp(6.0 * (directions @ lumps.T - 1.0)) @ sizes
+    return radius
 
 
 def torus(triangles: int, tube: float = 0.4) -> tuple[Floats, Integers]:

@@ -37,10 +37,11 @@ def gingerbread(triangles: int) -> tuple[Floats, Integers]:
 
 
 def figure_distance(points: Floats) -> Floats:
-    """Smooth union of the limbs at `points` (k, 2): about the signed distance, negative inside."""
-    offset = points[:, None] - _STARTS
-    along = np.clip(np.einsum("kci,ci->kc", offset, _AXES) / _LENGTHS**2, 0.0, 1.0)
-    offset -= along[..., None] * _AXES
+    """Smooth union of the limbs at `points` (k, 2), or (k, 3) about the plane z = 0: about the signed distance."""
+    flat = points[:, None, :2] - _STARTS
+    along = np.clip(np.einsum("kci,ci->kc", flat, _AXES) / _LENGTHS**2, 0.0, 1.0)
+    offset = np.repeat(points[:, None], len(_CAPSULES), axis=1)
+    offset[:, :, :2] = flat - along[..., None] * _AXES
     distance = np.sqrt(np.einsum("kci,kci->kc", offset, offset)) - _RADII
     value = distance[:, 0]
     for limb in range(1, distance.shape[1]):
