@@ -240,6 +240,31 @@ def test_peeling_by_the_slider_takes_its_share_away_and_is_held_while_the_map_mo
     assert window.volume.look.is_whole and not window.look.peel.peel.value()
 
 
+def test_how_solids_are_cut_is_kept_and_nonsense_passed_over(solid_window: MainWindow) -> None:
+    window = solid_window
+    begins = window.volume.kept()
+    window.volume.choose(is_exact=True, cuts_target=True, ghost=0.3)
+    window.volume.peel_by_quantity("det")
+    kept = window.view_memory.state()["solid"]
+    window.volume.take_kept(begins)
+    assert window.volume.kept() == begins
+    window.volume.take_kept(kept)
+    assert window.volume.kept() == kept
+    window.volume.take_kept({"section": "yes", "plane": 3, "veil": "thick", "peel_by": 7})
+    window.volume.take_kept(begins)
+    assert window.volume.kept() == begins
+
+
+def test_pinning_the_boundary_of_a_solid_leaves_its_inside_free(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window = solid_window
+    window.actions_by_name["pin"].trigger()
+    qtbot.waitUntil(lambda: len(window.document.anchors) > 0)
+    x = solid_mesh().vertices
+    is_outside = ((x == x.min(axis=0)) | (x == x.max(axis=0))).any(axis=1)
+    assert np.array_equal(np.sort(window.document.anchors.vertices), np.flatnonzero(is_outside))
+    window.document.clear_anchors()
+
+
 def test_turning_one_view_turns_all(solid_window: MainWindow, qtbot: QtBot) -> None:
     window = solid_window
     Hand(window.source.view).drag(QPoint(6, 6), QPoint(60, 20))

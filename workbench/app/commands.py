@@ -186,7 +186,10 @@ class Commands(QObject):
             self._boundary_search = None
             self._window.reporter.show_exception(error)
 
-        self._boundary_search = Background(lambda: boundary_vertices(mesh.simplices), self)
+        solid = self._window.volume.solid
+        simplices, sides = mesh.simplices, None if solid is None else solid.boundary.triangles
+        find = (lambda: np.unique(sides)) if sides is not None else (lambda: boundary_vertices(simplices))
+        self._boundary_search = Background(find, self)
         self._boundary_search.finished.connect(pin)
         self._boundary_search.failed.connect(fail)
         self._boundary_search.start()

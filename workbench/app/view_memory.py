@@ -15,10 +15,10 @@ Plain = dict[str, Any]
 
 
 class ViewMemory:
-    """Quantities of views and panels, scales of colours, choices of histogram, curves and inspector.
+    """Quantities of views and panels, scales of colours, choices of histogram, curves and inspector, how solids are cut.
 
-    Ends that were set by hand belong to a mesh and are not kept. What can no longer be shown, as a formula of one's own
-    that was deleted, leaves the view as it begins.
+    Ends that were set by hand, and where a plane stood, belong to a mesh and are not kept. What can no longer be shown, as a
+    formula of one's own that was deleted, leaves the view as it begins.
     """
 
     def __init__(self, window: MainWindow) -> None:
@@ -75,6 +75,7 @@ class ViewMemory:
                 "logarithmic": window.convergence.logarithmic.isChecked(),
             },
             "inspector": {"page": window.inspector.tabs.currentIndex()},
+            "solid": window.volume.kept(),
         }
 
     # ------------------------------------------------------------------------------------------ taking up
@@ -88,6 +89,7 @@ class ViewMemory:
         window.convergence.logarithmic.setChecked(curves.get("logarithmic") is not False)
         _choose(window.convergence.abscissa, curves.get("abscissa"))
         _choose(window.inspector.tabs, _table(state, "inspector").get("page"))
+        window.volume.take_kept(_table(state, "solid"))
         self._waiting = {name: words for name, words in _table(state, "views").items() if name in self._begins}
         self._scales = _table(state, "scales")
         self._go_on()

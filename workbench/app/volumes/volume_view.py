@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -41,7 +42,7 @@ class VolumeView(QObject):
         self._drawn_for: tuple[object, ...] = ()
         document.snapshot_taken.connect(self._peel_when_known)
         brush.changed.connect(self._brushed)
-        book.listed.connect(self._watch)
+        book.listed.connect(self._offer)
 
     @property
     def is_on(self) -> bool:
@@ -115,6 +116,30 @@ class VolumeView(QObject):
         self.peel_by = id
         self.peel(self.peeled)
 
+    # ------------------------------------------------------------------------------------------ memory
+
+    def kept(self) -> dict[str, Any]:
+        """What is there again at the next start, as plain values."""
+        look = self.look
+        return {
+            "section": look.is_exact,
+            "plane": "target" if look.cuts_target else "source",
+            "veil": look.ghost,
+            "peel_by": self.peel_by,
+        }
+
+    def take_kept(self, kept: Mapping[str, Any]) -> None:
+        """Take up what `kept` gave; values of another kind are passed over."""
+        veil, peel_by = kept.get("veil"), kept.get("peel_by")
+        is_number = isinstance(veil, int | float) and 0 <= veil <= 1
+        self.choose(
+            is_exact=kept.get("section") is True,
+            cuts_target=kept.get("plane") == "target",
+            ghost=float(veil) if is_number else VolumeLook.ghost,  # type: ignore[arg-type]
+        )
+        if isinstance(peel_by, str):
+            self.peel_by = peel_by
+
     def _peel_when_known(self) -> None:
         values = self.values()
         if not self._waits_for_values or values is None:
@@ -123,6 +148,12 @@ class VolumeView(QObject):
         finite = values[np.isfinite(values)]
         if len(finite):
             self.choose(threshold=float(np.quantile(finite, min(self.peeled, 1.0 - 1.0 / len(finite)))))
+
+    def _offer(self) -> None:
+        """The quantities are listed now: one that is no longer there is given up."""
+        if self._book.is_listed and self.peel_by not in self._book:
+            self.peel_by = IN_FORCE.id
+        self._watch()
 
     def _watch(self) -> None:
         """Ask for the quantity to peel by while it is needed."""
