@@ -65,6 +65,7 @@ class AnchorTool(NavigationTool):
         self._pressed_vertex = -1
         self._hold: Hold | None = None
         self._was_moved = False
+        self._taken_from = np.zeros(3)
         self._box_from: QPointF | None = None
         self._box_armed = False
         self._pending: tuple[QPointF, bool, float] | None = None
@@ -133,6 +134,8 @@ class AnchorTool(NavigationTool):
         self._hold = hold
         self._was_moved = False
         self._keys.listen(True)
+        scene = self.view.overlay.scene
+        self._taken_from = scene.anchor_points[scene.is_selected].mean(axis=0)
         self.taken_up.emit()
 
     # ------------------------------------------------------------------------------------------ move
@@ -252,10 +255,9 @@ class AnchorTool(NavigationTool):
             return
         hold.lock = toggled(hold.lock, wanted)
         scene = self.view.overlay.scene
-        middle = scene.anchor_points[scene.is_selected].mean(axis=0)
         scene.guide = None
         if hold.lock.kind == "line":
-            scene.guide = middle + np.outer([-2.0, 2.0], hold.lock.direction)
+            scene.guide = self._taken_from + np.outer([-2.0, 2.0], hold.lock.direction)
         if self._was_moved:
             self._move_to(self._where, False, True, time.perf_counter())
         self.view.overlay.update()

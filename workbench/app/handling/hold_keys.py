@@ -31,8 +31,8 @@ class HoldKeys(QObject):
         key = Qt.Key(event.key())
         if key not in KEYS:
             return False
-        event.accept()
-        if event.type() == QEvent.Type.KeyPress and watched.isWidgetType() and not event.isAutoRepeat():
+        event.accept()  # whoever was to have it, a window or a widget, does not see it any more
+        if event.type() == QEvent.Type.KeyPress and not event.isAutoRepeat():
             if key in AXES:
                 self.axis_pressed.emit(AXES[key], bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
             elif key == Qt.Key.Key_N:

@@ -1,11 +1,11 @@
-"""The normal of what is drawn, at some of its vertices."""
+"""Which way what is drawn faces, at some of its vertices."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from workbench.app.views.camera import Points
-from workbench.core.arrays import Floats, Integers
+from workbench.core.arrays import Booleans, Floats, Integers
 
 
 def mean_normal(points: Points, triangles: Integers, vertices: Integers) -> Floats | None:
@@ -26,3 +26,20 @@ def mean_normal(points: Points, triangles: Integers, vertices: Integers) -> Floa
     if not length > 1e-9 * float(np.linalg.norm(doubled, axis=1).sum() or 1.0):
         return None
     return np.asarray(total / length)
+
+
+def faces_away(points: Points, triangles: Integers, vertices: Integers, sight: Floats) -> Booleans:
+    """(k,) whether no drawn triangle at each of `vertices` (k,) faces the eye: those at the back of a solid, or inside.
+
+    `sight` : (3,) float64, towards the eye
+    """
+    row = np.full(len(points), -1, dtype=np.int64)
+    row[vertices] = np.arange(len(vertices))
+    corners = row[triangles]
+    touching = (corners >= 0).any(axis=1)
+    corners = corners[touching]
+    a, b, c = np.moveaxis(np.asarray(points, dtype=np.float64)[triangles[touching]], 1, 0)
+    is_front = np.cross(b - a, c - a) @ sight > 0.0
+    away = np.ones(len(vertices) + 1, dtype=bool)
+    away[corners[is_front]] = False  # the last entry stands for the vertices that nobody asked about
+    return away[:-1]

@@ -22,6 +22,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.handling.gizmo import Gizmo
+from workbench.app.handling.normals import faces_away
 from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
 RADIUS = 6.5
 """Radius of an anchor's disc in pixels."""
 SMALL_RADIUS = 3.5
+BEHIND = 0.35
+"""Opacity of anchors that the solid hides."""
 MANY = 40
 """Number of anchors from which on their discs are small."""
 
@@ -180,11 +183,20 @@ class Overlay(QWidget):
             painter.setPen(leash)
             painter.drawLine(QPointF(*vertices[row]), QPointF(*discs[row]))
         painter.setPen(rim)
-        is_selected = scene.is_selected
-        for brush, rows, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
-            painter.setBrush(QBrush(brush))
-            for point in discs[rows]:
-                painter.drawEllipse(QPointF(*point), radius + larger, radius + larger)
+        is_selected, is_behind = scene.is_selected, self._behind(scene.anchor_vertices)
+        for behind in (True, False):
+            painter.setOpacity(BEHIND if behind else 1.0)
+            for brush, chosen, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
+                painter.setBrush(QBrush(brush))
+                for point in discs[chosen & (is_behind == behind)]:
+                    painter.drawEllipse(QPointF(*point), radius + larger, radius + larger)
+
+    def _behind(self, vertices: Integers) -> Booleans:
+        """(k,) which of these are at the back of a solid, or inside; surfaces have no back."""
+        geometry = self._view.geometry_shown
+        if geometry is None or geometry.simplices.shape[1] == 3:
+            return np.zeros(len(vertices), dtype=bool)
+        return faces_away(geometry.points, geometry.triangles, vertices, self._view.camera.axes[2])
 
     def _paint_guide(self, painter: QPainter) -> None:
         if self.scene.guide is not None:
