@@ -34,7 +34,7 @@ def ring(tmp_path: Path) -> tuple[Path, Mesh]:
 @pytest.fixture
 def carrying(solid_window: MainWindow, ring: tuple[Path, Mesh], qtbot: QtBot) -> MainWindow:
     solid_window.carried.read(str(ring[0]))
-    qtbot.waitUntil(lambda: solid_window.carried.surface is not None, timeout=30_000)
+    qtbot.waitUntil(lambda: solid_window.carried.surface is not None, timeout=90_000)
     return solid_window
 
 

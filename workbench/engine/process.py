@@ -92,7 +92,7 @@ def warm_up(tell: Callable[[], None]) -> None:
     from workbench.core.state import State
     from workbench.core.tape import run_tape
 
-    if not _is_cached(run_tape):
+    if not is_cached(run_tape):
         tell()
     corners = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]])
     mesh = Mesh(corners, np.array([[0, 1, 2], [1, 3, 2]]))
@@ -105,7 +105,7 @@ def warm_up(tell: Callable[[], None]) -> None:
     signed_singular_values(problem.elements, corners)
 
 
-def _is_cached(kernel: object) -> bool:
+def is_cached(kernel: object) -> bool:
     """Whether a kernel was compiled in an earlier run (numba keeps an index file beside its cache)."""
     cache = getattr(kernel, "_cache", None)
     path = getattr(getattr(cache, "_cache_file", None), "_index_path", "")

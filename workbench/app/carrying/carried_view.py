@@ -18,6 +18,7 @@ from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 from workbench.core.carried_surface import CarriedSurface, carry
 from workbench.core.mesh import Mesh
+from workbench.engine.carrying_kernels import compile_elsewhere
 from workbench.io.opening import read_source
 from workbench.io.write import write_surface
 
@@ -73,7 +74,12 @@ class CarriedView(QObject):
         if mesh is None or not self.is_possible or self.is_busy:
             return
         self.told.emit("Looking where the surface lies in the solid…")
-        self._begin(lambda: carry(read_source(source).mesh, mesh), lambda found: self._take(found, mesh))
+
+        def work() -> CarriedSurface:
+            compile_elsewhere()
+            return carry(read_source(source).mesh, mesh)
+
+        self._begin(work, lambda found: self._take(found, mesh))
 
     def save(self, path: str) -> None:
         """Write the surface as it is now."""

@@ -1,0 +1,30 @@
+"""The kernels of carried surfaces, compiled where it stops nobody."""
+
+from __future__ import annotations
+
+from multiprocessing import get_context
+
+import numpy as np
+
+from workbench.core import nearest_tetrahedron
+from workbench.core.carried_surface import carry
+from workbench.core.mesh import Mesh
+from workbench.core.surface_normals import vertex_normals
+from workbench.engine.process import is_cached
+
+
+def compile_elsewhere() -> None:
+    """Unless an earlier run has compiled them: in a process of its own, since compiling holds the interpreter for seconds."""
+    if not is_cached(nearest_tetrahedron._locate_all):
+        process = get_context("spawn").Process(target=carry_a_triangle, daemon=True)
+        process.start()
+        process.join()
+
+
+def carry_a_triangle() -> None:
+    """Everything that is done with a carried surface, once, in one tetrahedron."""
+    corners = np.vstack([np.zeros(3), np.eye(3)])
+    carried = carry(Mesh(0.2 * corners[:3] + [0.1, 0.1, 0.4], np.array([[0, 1, 2]])), Mesh(corners, np.arange(4)[None]))
+    moved = carried.at(corners)
+    carried.singular_values(moved)
+    vertex_normals(moved, carried.surface.simplices)
