@@ -6,6 +6,7 @@ import csv
 import os
 import signal
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,18 +21,19 @@ from tests.app.fake_race import InlineRaceWorker
 from workbench.app.main_window import MainWindow
 from workbench.app.race.difference import aligned, displacements
 from workbench.app.race.draft import Draft
-from workbench.app.race.race_record import RaceRecord, relative_errors
+from workbench.app.race.race_record import RaceRecord, relative_errors, verdict
 from workbench.app.race.race_window import RaceWindow
 from workbench.app.race.racing import Racing
 from workbench.app.race.set_up_dialog import RaceChoice, SetUpDialog
 from workbench.core.mesh import Mesh
-from workbench.engine.messages import SetProblem, TakeMap
+from workbench.engine.messages import SetAnchors, SetProblem, TakeMap
 from workbench.engine.race_messages import Entrant, RaceFrame
 from workbench.engine.racer import Marker, RaceRow
 
 NEWTON = Entrant("Newton", "projected-newton")
 AQP = Entrant("AQP", "aqp")
 DESCENT = Entrant("Descent", "gradient-descent")
+NO_ANCHORS = SetAnchors(np.empty(0, np.int64), np.empty((0, 2)), np.empty(0))
 
 
 @pytest.fixture
@@ -121,6 +123,7 @@ def test_a_preset_brings_its_distortion_and_parameters(dialog: SetUpDialog, qtbo
         dialog.race_button.click()
     choice = caught.args[0]
     assert [entrant.solver for entrant in choice.entrants] == ["aqp", "aqp"]
+    assert not choice.distortion  # that of another comparison does not stay
 
 
 def test_names_differ_and_numbers_are_bounded(dialog: SetUpDialog) -> None:
@@ -307,6 +310,62 @@ def test_a_switch_is_marked_on_the_curves(racing: Racing, qtbot: QtBot) -> None:
     assert race.model.records[0].entrant.solver == "projected-newton"
 
 
+def test_everyone_goes_on_with_the_anchors_of_the_document(racing: Racing, window: MainWindow, qtbot: QtBot) -> None:
+    race = begin(racing, qtbot, NEWTON, DESCENT)
+    finish(race, qtbot)
+    document, model = window.document, race.model
+    vertex = document.mesh.vertex_count - 1
+    target = document.mesh.vertices[vertex, :2] + [0.4, -0.2]
+    document.move_anchor(vertex, target, False)
+    race.actions_by_name["anchors"].trigger()
+    qtbot.waitUntil(lambda: all(record.frame.markers for record in model.records))
+    finish(race, qtbot)
+    np.testing.assert_allclose(model.records[0].frame.positions[vertex], target, atol=1e-9)
+    for record, pane in zip(model.records, race.grid.panes, strict=True):
+        (marker,) = record.frame.markers
+        assert "2 anchors" in marker.sentence
+        assert record.terms[marker.index] != record.terms[0]  # another energy: no error to the best of before
+        row = np.flatnonzero(pane.view.overlay.scene.anchor_vertices == vertex)
+        shown = pane.geometry_shown.frame.to_display(target[None])
+        np.testing.assert_allclose(pane.view.overlay.scene.anchor_points[row], shown, atol=1e-6)
+
+
+def test_the_arrow_keys_go_through_time(racing: Racing, qtbot: QtBot) -> None:
+    race = begin(racing, qtbot, NEWTON, DESCENT)
+    finish(race, qtbot)
+    activate(race)
+    end, descent = race.model.end_of("iteration"), race.model.records[1]
+    QTest.keyClick(race, Qt.Key.Key_Left)
+    qtbot.waitUntil(lambda: descent.frame.iteration == end - 1)
+    settle(race, qtbot)
+    assert f"{end - 1:.0f} of {end:.0f}" in race.grid.panes[1].numbers.text()
+    QTest.keyClick(race, Qt.Key.Key_Left, Qt.KeyboardModifier.ShiftModifier)
+    qtbot.waitUntil(lambda: descent.frame.iteration == end - 11)
+    for _ in range(11):
+        QTest.keyClick(race, Qt.Key.Key_Right)
+    qtbot.waitUntil(lambda: descent.frame.iteration == end)
+    assert race.model.is_live
+
+
+def test_maps_that_have_shrunk_are_fitted_once_more(racing: Racing, window: MainWindow, qtbot: QtBot) -> None:
+    race = begin(racing, qtbot, NEWTON, DESCENT, iterations=200)
+    race.begin(replace(race.model.set_up, start=window.document.positions * 6.0, anchors=NO_ANCHORS))
+    qtbot.waitUntil(lambda: all(record.frame is not None for record in race.model.records))
+    before = race.grid.panes[0].view.camera.half_height
+    finish(race, qtbot)
+    view = race.grid.panes[0].view
+    extents = np.ptp(np.concatenate([view.project(pane.geometry_shown.points) for pane in race.grid.panes]), axis=0)
+    assert view.camera.half_height < 0.5 * before
+    assert 0.5 < (extents / view.size_in_pixels).max() < 1.0
+
+
+def test_colours_follow_the_distortion_of_another_race(racing: Racing, qtbot: QtBot) -> None:
+    race = begin(racing, qtbot, NEWTON, DESCENT)
+    racing.begin(RaceChoice((NEWTON, AQP), "mips", True, 5, 1e-9))
+    assert race.colours.quantity.id == race.compare.chooser.current == "mips"
+    qtbot.waitUntil(lambda: all(r.frame is not None and "mips" in r.frame.fields for r in race.model.records))
+
+
 def test_a_contestant_that_fails_says_so_and_the_others_race(racing: Racing, qtbot: QtBot) -> None:
     race = begin(racing, qtbot, NEWTON, Entrant("wrong", "local-global"))
     finish(race, qtbot)
@@ -374,7 +433,7 @@ def row(iteration: int, energy: float, anchor_error: float = 0.0) -> RaceRow:
 
 
 def record_of(rows: list[RaceRow], terms: list[int]) -> RaceRecord:
-    made = RaceRecord(Entrant("a", "aqp"), SetProblem())
+    made = RaceRecord(Entrant("a", "aqp"), SetProblem(), NO_ANCHORS)
     markers: tuple[Marker, ...] = ()
     made.take(RaceFrame(1, 0, 1, 0, 0.0, tuple(rows), tuple(terms), markers, "running", "RUNNING", "", 0))
     return made
@@ -386,6 +445,15 @@ def test_errors_are_relative_to_the_best_of_the_same_energy(square: Mesh) -> Non
     errors = relative_errors([first, second], square, 1.0)
     np.testing.assert_allclose(errors[0], [np.nan, 1.0, 0.0, 0.0])  # an anchor that lags is no map to be best
     np.testing.assert_allclose(errors[1], [0.25, np.inf])
+
+
+def test_the_verdict_is_on_maps_that_hold_their_anchors_and_one_energy(square: Mesh) -> None:
+    low, high = record_of([row(0, 9.0), row(1, 4.0)], [0, 0]), record_of([row(0, 9.0), row(1, 5.0)], [0, 0])
+    low.label, high.label = "low", "high"
+    lags, other = record_of([row(0, 1.0, anchor_error=0.5)], [0]), record_of([row(0, 0.1)], [1])
+    assert verdict([high, low, lags], square).startswith("Over. low came lowest: mean distortion 4, after 1 iteration ")
+    assert "nobody is first" in verdict([low, other], square)
+    assert "Nobody" in verdict([lags, lags], square)
 
 
 def test_a_motion_is_no_difference() -> None:

@@ -126,6 +126,22 @@ def test_a_switch_is_marked_and_one_that_does_not_fit_is_refused(race: tuple[Rac
     assert not window.frames[0].markers
 
 
+def test_anchors_are_switched_and_a_fixed_boundary_stays(square: Mesh) -> None:
+    window = Window()
+    loop = RaceLoop(window)
+    loop.handle(start_of(square, NEWTON, AQP, reach=0.0, fixed_boundary=True))
+    inner = np.setdiff1d(np.arange(square.vertex_count), square.topology.boundary_vertices)[:1]
+    target = square.vertices[inner, :2] + 0.01
+    loop.handle(Switch(1, "pulled", anchors=SetAnchors(inner, target, np.full(1, np.inf))))
+    finish(loop)
+    rim = square.topology.boundary_vertices
+    np.testing.assert_allclose(window.frames[1].positions[inner], target, atol=1e-9)
+    np.testing.assert_allclose(window.frames[1].positions[rim], square.vertices[rim, :2], atol=1e-9)
+    assert not np.allclose(window.frames[0].positions[inner], target, atol=1e-9)
+    loop.handle(Switch(1, "nowhere", anchors=SetAnchors(np.array([10**6]), target, np.full(1, np.inf))))
+    assert "vertex" in window.reports[-1].sentence and len(window.frames[1].markers) == 1
+
+
 def test_one_that_cannot_start_harms_nobody(square: Mesh) -> None:
     window = Window()
     loop = RaceLoop(window)

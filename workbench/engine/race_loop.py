@@ -13,7 +13,19 @@ from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
-from workbench.engine.messages import Command, Failure, Pause, Progress, Quit, Refused, Report, Run, SetProblem, Step
+from workbench.engine.messages import (
+    Command,
+    Failure,
+    Pause,
+    Progress,
+    Quit,
+    Refused,
+    Report,
+    Run,
+    SetAnchors,
+    SetProblem,
+    Step,
+)
 from workbench.engine.race import Contestant, Frame, Limits, Race, Racer
 from workbench.engine.race_messages import (
     Entrant,
@@ -65,6 +77,7 @@ class RaceLoop:
         self._told: list[_Told] = []
         self._terms: dict[Terms, int] = {}
         self._phase: RacePhase | None = None
+        self._boundary = Anchors.none(2)
         self.has_quit = False
 
     # ----------------------------------------------------------------------------------------- commands
@@ -104,12 +117,14 @@ class RaceLoop:
     def _start(self, command: StartRace) -> None:
         self._serial, self._race, self._phase = command.serial, None, None
         self._running, self._steps_left, self._seek = False, 0, Seek()
+        self._boundary = Anchors.none(command.mesh.dimension)
         self._publish(Progress("Bringing everyone to the start …"))
         problem = _problem_of(command)
         start = _start_of(command, problem)
         if command.problem.fixed_boundary:
-            boundary = problem.mesh.topology.boundary_vertices
-            problem = problem.with_anchors(problem.anchors.with_added(boundary, start[boundary]))
+            rows = problem.mesh.topology.boundary_vertices
+            self._boundary = Anchors(rows, start[rows])
+            problem = problem.with_anchors(self._all_anchors(command.anchors))
         contestants = [_contestant(entrant) for entrant in command.entrants]
         limits = Limits(command.limits.iterations, command.limits.time_limit)
         race = Race(problem, start, contestants, criteria=Criteria(command.limits.tolerance), limits=limits)
@@ -126,8 +141,17 @@ class RaceLoop:
         distortion, allow = None, None
         if command.problem is not None:
             distortion, allow = _distortion(command.problem), command.problem.allow_inversions
-        racer.rebase(command.sentence, solver=solver, distortion=distortion, allow_inversions=allow)
+        anchors = None
+        if command.anchors is not None:
+            anchors = self._all_anchors(command.anchors)
+            anchors.check(racer.problem.mesh.vertex_count, racer.problem.dimension)
+        racer.rebase(command.sentence, solver=solver, distortion=distortion, anchors=anchors, allow_inversions=allow)
         self._publish_frame(command.index)
+
+    def _all_anchors(self, held: SetAnchors) -> Anchors:
+        """These, and the boundary where it was fixed at the start."""
+        anchors = _anchors(held, self._boundary.targets.shape[1])
+        return anchors.with_added(self._boundary.vertices, self._boundary.targets) if len(self._boundary.vertices) else anchors
 
     def _save(self, command: SaveTables) -> None:
         if self._race is None:
@@ -240,9 +264,13 @@ def _start_of(command: StartRace, problem: Problem) -> Floats:
 
 
 def _problem_of(command: StartRace) -> Problem:
-    mesh, choices, held = command.mesh, command.problem, command.anchors
-    anchors = Anchors(held.vertices, held.targets, held.weights) if len(held.vertices) else Anchors.none(mesh.dimension)
+    mesh, choices = command.mesh, command.problem
+    anchors = _anchors(command.anchors, mesh.dimension)
     return Problem.create(mesh, command.kind, _distortion(choices), anchors, allow_inversions=choices.allow_inversions)
+
+
+def _anchors(held: SetAnchors, dimension: int) -> Anchors:
+    return Anchors(held.vertices, held.targets, held.weights) if len(held.vertices) else Anchors.none(dimension)
 
 
 def _distortion(choices: SetProblem) -> Distortion:

@@ -71,17 +71,18 @@ class Seek(Command):
 
 @dataclass(frozen=True)
 class Switch(Command):
-    """Let contestant `index` go on with another solver (empty: its own), or another distortion; `sentence` marks it."""
+    """Let contestant `index` go on with another solver (empty: its own), distortion or other anchors; `sentence` marks it."""
 
     index: int
     sentence: str
     solver: str = ""
     parameters: dict[str, Any] = field(default_factory=dict)
     problem: SetProblem | None = None
+    anchors: SetAnchors | None = None
 
     @property
     def slot(self) -> Hashable:
-        return type(self).__name__, self.index
+        return type(self).__name__, self.index, self.anchors is None
 
 
 @dataclass(frozen=True)

@@ -137,8 +137,9 @@ class ContestantPane(QWidget):
         """Name, numbers and how it stands."""
         frame = record.frame
         self.swatch.setPixmap(swatch_of(self.shown))
-        notes = (("flipped",) if self.is_flipped else ()) + (("A, with which the others are compared",) if self.is_reference else ())
-        self.name.setText(f"{record.label}  ({'; '.join(notes)})" if notes else record.label)
+        notes = {"flipped": self.is_flipped, "A, with which the others are compared": self.is_reference}
+        said = "; ".join(note for note, holds in notes.items() if holds)
+        self.name.setText(f"{record.label}  ({said})" if said else record.label)
         self.switch_action.setEnabled(frame is not None)
         self.take_action.setEnabled(frame is not None)
         if frame is None:

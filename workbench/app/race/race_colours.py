@@ -100,7 +100,8 @@ class RaceColours(QObject):
             return None
         if self.mode == "displacement":
             positions = frame.positions
-            if len(self._model.set_up.anchors.vertices) < 2 and not self._model.set_up.problem.fixed_boundary:
+            held = min(len(self._model.records[i].anchors.vertices) for i in (index, self.reference))
+            if held < 2 and not self._model.set_up.problem.fixed_boundary:
                 positions = aligned(positions, reference.positions)
             mesh = self._model.mesh
             return (displacements(positions, reference.positions, mesh.simplices) / mesh.diameter).astype(np.float32)

@@ -26,6 +26,9 @@ PLOTS = (
     ("gradient_norm", "Gradient norm"),
     ("inverted", "Inverted simplices"),
 )
+AXIS_LABELS: dict[Axis, str] = {"iteration": "iterations", "seconds": "seconds of its own"}
+HEIGHTS = (3, 3, 3, 2)
+"""Of the plots, to each other: the last is mostly a line at 0."""
 THINNEST, WIDER = 1.5, 0.9
 """Width of the last contestant's curve in pixels, and how much wider each one before it is."""
 INTERVAL = 400
@@ -59,6 +62,8 @@ class RaceCurves(QWidget):
             plot.addItem(cursor, ignoreBounds=True)
             self._plots.append(plot)
             self._cursors.append(cursor)
+            self.graphics.ci.layout.setRowStretchFactor(row, HEIGHTS[row])
+        self._name_axis()
         self.curves: dict[tuple[str, int], pg.PlotDataItem] = {}
         self.markers: dict[tuple[str, int], pg.PlotDataItem] = {}
         self._marks = SwitchMarks(self.graphics, self._plots)
@@ -100,6 +105,7 @@ class RaceCurves(QWidget):
 
     def show_axis(self, axis: Axis) -> None:
         self.axis = axis
+        self._name_axis()
         self.refresh()
 
     def set_logarithmic(self, side: str, wanted: bool) -> None:
@@ -107,6 +113,9 @@ class RaceCurves(QWidget):
         self.is_logarithmic[side] = wanted
         self._apply_log()
         self.refresh()
+
+    def _name_axis(self) -> None:
+        self._plots[-1].setLabel("bottom", AXIS_LABELS[self.axis])
 
     def _apply_log(self) -> None:
         for plot, (name, _) in zip(self._plots, PLOTS, strict=True):

@@ -14,7 +14,7 @@ from workbench.app.race.race_record import RaceRecord
 from workbench.core.arrays import Floats
 from workbench.core.jacobians import simplex_measures
 from workbench.core.mesh import Mesh
-from workbench.engine.messages import Failure, Pause, Refused, Run, SetProblem, Step, Watch
+from workbench.engine.messages import Failure, Pause, Refused, Run, SetAnchors, SetProblem, Step, Watch
 from workbench.engine.race_messages import (
     LIVE,
     Axis,
@@ -44,7 +44,7 @@ class RaceModel(QObject):
     def __init__(self, set_up: StartRace, make_worker: WorkerMaker = race_worker) -> None:
         super().__init__()
         self.set_up = set_up
-        self.records = [RaceRecord(entrant, set_up.problem) for entrant in set_up.entrants]
+        self.records = [RaceRecord(entrant, set_up.problem, set_up.anchors) for entrant in set_up.entrants]
         self.total_measure = float(simplex_measures(set_up.mesh).sum())
         self.start: Floats | None = None
         self.is_running = False
@@ -80,7 +80,7 @@ class RaceModel(QObject):
         if set_up.mesh is not self.set_up.mesh:
             self.total_measure = float(simplex_measures(set_up.mesh).sum())
         self.set_up = replace(set_up, serial=self._serial)
-        self.records = [RaceRecord(entrant, set_up.problem) for entrant in set_up.entrants]
+        self.records = [RaceRecord(entrant, set_up.problem, set_up.anchors) for entrant in set_up.entrants]
         self.seek, self.is_running, self.is_over, self.is_ready = Seek(), False, False, False
         self._wants_to_run = run
         self.bridge.post(self.set_up)
@@ -133,8 +133,15 @@ class RaceModel(QObject):
     def switch(self, index: int, sentence: str, solver: str, parameters: dict[str, Any], problem: SetProblem | None) -> None:
         """Let a contestant go on in another way, from the map that it has."""
         record = self.records[index]
-        record.asked = (replace(record.entrant, solver=solver, parameters=parameters), problem or record.problem)
+        entrant = replace(record.entrant, solver=solver, parameters=parameters)
+        record.asked = (entrant, problem or record.problem, record.anchors)
         self.bridge.post(Switch(index, sentence, solver, parameters, problem))
+
+    def move_anchors(self, sentence: str, anchors: SetAnchors) -> None:
+        """Let everyone go on with these anchors, from the map that it has."""
+        for index, record in enumerate(self.records):
+            record.asked = (record.entrant, record.problem, anchors)
+            self.bridge.post(Switch(index, sentence, anchors=anchors))
 
     def end_of(self, axis: Axis) -> float:
         """The end of a time axis: of whoever came furthest."""

@@ -10,7 +10,7 @@ from workbench.app.history import History
 from workbench.core.arrays import Floats
 from workbench.core.mesh import Mesh
 from workbench.core.problem import ANCHOR_TOLERANCE
-from workbench.engine.messages import SetProblem
+from workbench.engine.messages import SetAnchors, SetProblem
 from workbench.engine.race_messages import Entrant, RaceFrame
 
 COLUMNS = ("iteration", "seconds", "energy", "mean_distortion", "gradient_norm", "inverted", "anchor_error")
@@ -19,11 +19,12 @@ COLUMNS = ("iteration", "seconds", "energy", "mean_distortion", "gradient_norm",
 class RaceRecord:
     """A contestant's newest frame, all rows of its history, and what it does now."""
 
-    def __init__(self, entrant: Entrant, problem: SetProblem) -> None:
+    def __init__(self, entrant: Entrant, problem: SetProblem, anchors: SetAnchors) -> None:
         self.entrant = entrant
         self.problem = problem
+        self.anchors = anchors
         self.label = entrant.label
-        self.asked: tuple[Entrant, SetProblem] | None = None
+        self.asked: tuple[Entrant, SetProblem, SetAnchors] | None = None
         self.frame: RaceFrame | None = None
         self.history = History(COLUMNS)
         self.terms: list[int] = []
@@ -34,7 +35,7 @@ class RaceRecord:
         self.terms.extend(frame.terms)
         has_map = frame.number > 0
         if self.asked is not None and self.frame is not None and len(frame.markers) > len(self.frame.markers):
-            (self.entrant, self.problem), self.asked = self.asked, None
+            (self.entrant, self.problem, self.anchors), self.asked = self.asked, None
         self.frame = frame.after(self.frame)
         return has_map
 
@@ -70,6 +71,21 @@ def relative_errors(records: Sequence[RaceRecord], mesh: Mesh, total_measure: fl
         least = np.where(np.isfinite(best[these]), best[these], np.nan)
         errors.append((values - least) / np.maximum(np.abs(least), floor))
     return errors
+
+
+def verdict(records: Sequence[RaceRecord], mesh: Mesh) -> str:
+    """One sentence about a race that is over: who came lowest, where all minimised the same energy."""
+    held = [_held(record, mesh) for record in records]
+    last = [values[-1] if len(values) else np.nan for values in held]
+    if len({record.terms[-1] for record in records if record.terms}) > 1:
+        return "Over. They ended with different energies, so nobody is first."
+    if not np.isfinite(last).any():
+        return "Over. Nobody has brought its anchors into place."
+    first = records[int(np.nanargmin(last))]
+    mean = first.history.column("mean_distortion")[-1]
+    noun = "iteration" if first.iterations == 1 else "iterations"
+    how = f"after {first.iterations} {noun} and {first.spent:.2f} s of its own" if first.entrant.solver else "a given map"
+    return f"Over. {first.label} came lowest: mean distortion {mean:.6g}, {how}."
 
 
 def _held(record: RaceRecord, mesh: Mesh) -> Floats:

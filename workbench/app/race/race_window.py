@@ -16,6 +16,7 @@ from workbench.app.race.race_bridge import race_worker
 from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_curves import RaceCurves
 from workbench.app.race.race_model import RaceModel
+from workbench.app.race.race_record import verdict
 from workbench.app.race.race_saver import RaceSaver
 from workbench.app.race.timeline import Timeline
 from workbench.app.race.view_grid import ViewGrid
@@ -31,7 +32,19 @@ ACTIONS = (
     ("stop", "Stop", "Ctrl+.", "stop", "End what hangs; what is shown stays (Ctrl+.)"),
     ("fit", "Fit views", "F", "fit", "Show all of every map (F)"),
 )
-MORE = (("set-up", "Contestants…", ""), ("save", "Save…", "Ctrl+S"), ("flip", "Flip", "X"), ("live", "Live", "L"))
+IN_WORDS = (
+    ("set-up", "Contestants…", "", "Another race: other contestants, another distortion or start"),
+    ("anchors", "Anchors", "", "All go on with the anchors as they are in the document now; a mark on the curves says so"),
+    ("save", "Save…", "Ctrl+S", "The tables and the curves, into a folder (Ctrl+S)"),
+)
+UNSEEN = (
+    ("flip", "Flip", "X"),
+    ("live", "Live", "L"),
+    ("back", "Back", "Left"),
+    ("forth", "Forth", "Right"),
+    ("far-back", "Far back", "Shift+Left"),
+    ("far-forth", "Far forth", "Shift+Right"),
+)
 HOLD_KEY = Qt.Key.Key_Y
 
 
@@ -41,6 +54,7 @@ class RaceWindow(QMainWindow):
     set_up_wanted = Signal()
     take_wanted = Signal(int)
     switch_wanted = Signal(int)
+    anchors_wanted = Signal()
     closed = Signal()
 
     def __init__(
@@ -89,19 +103,15 @@ class RaceWindow(QMainWindow):
             bar.addAction(action)
             self.actions_by_name[name] = action
         bar.addSeparator()
-        for name, text, keys in (
-            ("set-up", "Contestants…", ""),
-            ("save", "Save…", "Ctrl+S"),
-            ("flip", "Flip", "X"),
-            ("live", "Live", "L"),
-        ):
-            action = QAction(text, self)
+        for name, text, keys, tip in IN_WORDS:
+            action = self.actions_by_name[name] = QAction(text, self)
             action.setShortcut(QKeySequence(keys))
-            self.actions_by_name[name] = action
-            if name in ("set-up", "save"):
-                bar.addAction(action)
-            else:
-                self.addAction(action)
+            action.setToolTip(tip)
+            bar.addAction(action)
+        for name, text, keys in UNSEEN:
+            action = self.actions_by_name[name] = QAction(text, self)
+            action.setShortcut(QKeySequence(keys))
+            self.addAction(action)
         self.tool_bar = bar
         self.addToolBar(bar)
 
@@ -137,9 +147,14 @@ class RaceWindow(QMainWindow):
             "stop": model.stop,
             "fit": self.grid.fit,
             "set-up": self.set_up_wanted.emit,
+            "anchors": self.anchors_wanted.emit,
             "save": self.saver.ask,
             "flip": self.compare.flip_button.toggle,
             "live": model.go_live,
+            "back": lambda: self.timeline.move(-1),
+            "forth": lambda: self.timeline.move(1),
+            "far-back": lambda: self.timeline.move(-10),
+            "far-forth": lambda: self.timeline.move(10),
         }.items():
             self.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
         self.compare.chooser.chosen.connect(self.colours.show_quantity)
@@ -170,7 +185,11 @@ class RaceWindow(QMainWindow):
         self.model.open(run=run)
 
     def begin(self, set_up: StartRace, *, run: bool = False) -> None:
-        """Another race in the same window."""
+        """Another race in the same window; where it has another distortion, the colours follow."""
+        distortion = set_up.problem.distortion
+        if distortion != self.model.set_up.problem.distortion and self.compare.chooser.findData(distortion) >= 0:
+            self.compare.chooser.show_choice(distortion)
+            self.colours.show_quantity(distortion)
         self.model.begin(set_up, run=run)
         self.grid.make_panes()
         self.curves.make_curves()
@@ -186,6 +205,8 @@ class RaceWindow(QMainWindow):
         run.setIcon(icon("pause" if model.is_running else "run", self.theme))
         for name in ("run", "step"):
             self.actions_by_name[name].setEnabled(model.is_ready and not (model.is_over and not model.is_running))
+        for name in ("anchors", "save"):
+            self.actions_by_name[name].setEnabled(model.is_ready)
         self._say_how_it_stands()
 
     def _say_how_it_stands(self) -> None:
@@ -193,9 +214,12 @@ class RaceWindow(QMainWindow):
         running = sum(frame is not None and frame.phase == "running" for frame in frames)
         if not self.model.is_ready:
             return
-        state = "Running" if self.model.is_running else "Over" if self.model.is_over else "Paused"
-        left = f": {running} of {len(frames)} have steps to take." if running else "."
-        self.say(f"{state}{left} They take turns on one engine; each is charged its own seconds only.")
+        if self.model.is_over:
+            self.say(verdict(self.model.records, self.model.mesh))
+            return
+        state = "Running" if self.model.is_running else "Paused"
+        left = f"{running} of {len(frames)} have steps to take"
+        self.say(f"{state}: {left}. They take turns on one engine; each is charged its own seconds only.")
 
     def set_theme(self, theme: Theme) -> None:
         self.theme = theme

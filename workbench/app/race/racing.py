@@ -113,13 +113,14 @@ class Racing(QObject):
         self.race.take_wanted.connect(self.take_map)
         self.race.switch_wanted.connect(self.ask_switch)
         self.race.set_up_wanted.connect(self.ask_contestants)
+        self.race.anchors_wanted.connect(self.move_anchors)
         self.race.closed.connect(self._race_closed)
         window.theme_switch.changed.connect(self.race.set_theme)
         self.race.open()
 
     def _set_up(self, choice: RaceChoice) -> StartRace | None:
         document, session = self._document, self._document.session
-        loaded, positions, anchors = document.loaded, document.positions, document.anchors
+        loaded, positions = document.loaded, document.positions
         if loaded is None or positions is None:
             return None
         own = not choice.distortion
@@ -130,8 +131,6 @@ class Racing(QObject):
             session.allow_inversions,
         )
         reset = Reset(session.initializer, dict(session.initializer_parameters), session.start_file, session.match_area)
-        vertices = anchors.vertices
-        weights = np.full(len(vertices), np.inf)
         return StartRace(
             serial=0,
             mesh=loaded.mesh,
@@ -139,7 +138,7 @@ class Racing(QObject):
             start=positions if choice.from_map else StartWish(session.source, session.solver, session.fixes, reset),
             entrants=choice.entrants,
             problem=problem,
-            anchors=SetAnchors(vertices, anchors.target_array(positions.shape[1]), weights),
+            anchors=self._anchors(positions.shape[1]),
             limits=Run(choice.iterations, choice.tolerance),
         )
 
@@ -165,6 +164,21 @@ class Racing(QObject):
         dialog = SwitchDialog(record.entrant, record.problem, model.set_up.kind, self._registry, self.race)
         dialog.switched.connect(lambda *change: model.switch(index, *change))
         dialog.open()
+
+    def move_anchors(self) -> None:
+        """All contestants go on with the anchors that the document has now."""
+        assert self.race is not None
+        if self._document.generation != self._generation:
+            self.race.error_bar.show_message(OTHER_MESH)
+        else:
+            anchors = self._anchors(self.race.model.mesh.dimension)
+            count = len(anchors.vertices)
+            self.race.model.move_anchors(f"{count} {'anchor' if count == 1 else 'anchors'} of the document", anchors)
+
+    def _anchors(self, dimension: int) -> SetAnchors:
+        """Those of the document, all hard."""
+        vertices = self._document.anchors.vertices
+        return SetAnchors(vertices, self._document.anchors.target_array(dimension), np.full(len(vertices), np.inf))
 
     def _race_closed(self) -> None:
         race, self.race = self.race, None

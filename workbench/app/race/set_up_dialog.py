@@ -221,8 +221,8 @@ class SetUpDialog(QDialog):
         if preset is None:
             return
         self.drafts[:] = [Draft(c.label, c.solver, _checked(self._registry, c.solver, c.values)) for c in preset.choices]
-        if preset.distortion and preset.distortion != self._ground.distortion:
-            self.distortion_box.setCurrentIndex(self.distortion_box.findData(preset.distortion))
+        needs = preset.distortion if preset.distortion != self._ground.distortion else ""
+        self.distortion_box.setCurrentIndex(self.distortion_box.findData(needs or DOCUMENTS))
         self._fill(0)
 
     def _remove(self) -> None:

@@ -31,7 +31,10 @@ class Timeline(QWidget):
         self.slider = QSlider(Qt.Orientation.Horizontal, self)
         self.slider.setRange(0, TICKS)
         self.slider.setValue(TICKS)
-        self.slider.setToolTip("Moves all views back and forth in time; the race goes on meanwhile")
+        self.slider.setToolTip(
+            "Moves all views back and forth in time; the race goes on meanwhile.\n"
+            "Keys left and right: by one iteration, with Shift by ten"
+        )
         self.place = QLabel(self)
         self.place.setMinimumWidth(self.fontMetrics().horizontalAdvance("iteration 00000") + 6)
         self.live = QPushButton("Live", self)
@@ -60,6 +63,15 @@ class Timeline(QWidget):
     @property
     def chosen_axis(self) -> Axis:
         return "seconds" if self.axis.currentData() == "seconds" else "iteration"
+
+    def move(self, count: int) -> None:
+        """So many iterations forth, or back where negative; of the seconds as many hundredths."""
+        axis, end = self.chosen_axis, self._model.end_of(self.chosen_axis)
+        place = (end if self._model.is_live else self._model.seek.place) + count * (1.0 if axis == "iteration" else 0.01 * end)
+        if place >= end:
+            self._model.go_live()
+        else:
+            self._model.seek_to(axis, max(round(place) if axis == "iteration" else place, 0))
 
     def _axis_changed(self) -> None:
         self._model.go_live()

@@ -19,6 +19,8 @@ from workbench.app.views.mesh_view import MeshView, box_corners
 GAP = 3
 HEADER_LINES = 2.8
 """Height of a pane's title, in lines of text."""
+SMALL = 0.55
+"""Part of a view, in its tighter direction, below which all maps together count as shrunk."""
 
 
 class ViewGrid(QWidget):
@@ -100,7 +102,8 @@ class ViewGrid(QWidget):
             surface = pane.view.surface
             if surface is None:
                 continue
-            if self._colours.is_plain(pane.shown):
+            pane.is_reference = self._colours.is_plain(pane.shown)
+            if pane.is_reference:
                 surface.show_plain()
             else:
                 surface.show_range(self._colours.range)
@@ -126,7 +129,7 @@ class ViewGrid(QWidget):
         record = self._model.records[pane.shown]
         pane.show_map(record, self._colours.values_of(pane.shown))
         pane.show_record(record)
-        if self._wants_fit and self._has_left(pane):
+        if self._wants_fit and (self._has_left(pane) or self._have_shrunk()):
             self.fit()
         return float(pane.view.canvas.seconds)
 
@@ -171,6 +174,13 @@ class ViewGrid(QWidget):
         corners = pane.view.project(box_corners(pane.geometry_shown.points))
         (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
         return bool(left < 0 or top < 0 or right > width or bottom > height)
+
+    def _have_shrunk(self) -> bool:
+        """Whether all maps together have become small in views whose camera nobody has touched."""
+        view = self.panes[0].view
+        boxes = [box_corners(pane.geometry_shown.points) for pane in self.panes if pane.geometry_shown is not None]
+        parts = np.ptp(view.project(np.concatenate(boxes)), axis=0) / view.size_in_pixels
+        return bool(parts.max() < SMALL)
 
     # ------------------------------------------------------------------------------------------ places
 
