@@ -80,6 +80,12 @@ def test_triangles_of_bent_surfaces_are_not_slivers(id: str) -> None:
     assert smallest_angles(make_sample(id)).min() > 12
 
 
+@pytest.mark.parametrize("triangles", range(1200, 2400, 50))
+def test_coarse_fingers_have_no_slivers(triangles: int) -> None:
+    """As soon as the grid resolves the fingers; with fewer triangles the sample is refused."""
+    assert smallest_angles(make_sample("fingers", triangles)).min() > 7
+
+
 @pytest.mark.parametrize(("id", "volume"), [("bar-3d", 4.0), ("ball", 4.0 / 3.0 * np.pi)])
 def test_solids_fill_their_shape(id: str, volume: float) -> None:
     mesh = make_sample(id)
@@ -130,6 +136,8 @@ def test_what_cannot_be_made_is_refused_with_a_sentence() -> None:
         make_sample("gingerbred")
     with pytest.raises(WorkbenchError, match="cannot be made"):
         make_sample("bar", 3)
+    with pytest.raises(WorkbenchError, match="1200"):
+        make_sample("fingers", 300)
 
 
 def test_stored_files_are_what_the_generator_makes(project_root: Path) -> None:

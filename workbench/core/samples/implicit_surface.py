@@ -56,7 +56,7 @@ def mesh_upper_surface(implicit: Implicit, low: Floats, high: Floats, spacing: f
         quad = np.stack(ring, axis=1)
         quad[sign < 0] = quad[sign < 0][:, ::-1]
         quads.append(quad[(quad >= 0).all(axis=1)])
-    quad = np.vstack(quads)
+    vertices, quad = _without_corners(vertices, np.vstack(quads))
     vertices = _relaxed(implicit, vertices, quad, spacing)
     return vertices, _split(vertices, quad)
 
@@ -97,6 +97,23 @@ def _without_ambiguous_faces(inside: Booleans) -> Booleans:
     return inside
 
 
+def _without_corners(vertices: Floats, quads: Integers) -> tuple[Floats, Integers]:
+    """Without the quadrilaterals that are alone at a vertex of the rim: smoothing would flatten them there.
+
+    The vertex opposite to that one goes to the rim, z = 0, instead.
+    """
+    edges = np.sort(quads[:, [[0, 1], [1, 2], [2, 3], [3, 0]]].reshape(-1, 2), axis=1)
+    edges, uses = np.unique(edges, axis=0, return_counts=True)
+    is_inner = np.ones(len(vertices), dtype=bool)
+    is_inner[edges[uses == 1]] = False
+    is_corner = (np.bincount(quads.ravel(), minlength=len(vertices)) == 1)[quads]
+    opposite = quads[np.arange(len(quads)), (is_corner.argmax(axis=1) + 2) % 4]
+    dropped = (is_corner.sum(axis=1) == 1) & is_inner[opposite]
+    vertices[opposite[dropped], 2] = 0.0
+    kept = np.unique(quads[~dropped])
+    return vertices[kept], np.searchsorted(kept, quads[~dropped])
+
+
 def _relaxed(implicit: Implicit, vertices: Floats, quads: Integers, spacing: float) -> Floats:
     """Vertices moved to the mean of their neighbours and back onto the surface; those on z = 0 stay on it."""
     edges = np.vstack([quads[:, [i, (i + 1) % 4]] for i in range(4)])
@@ -135,8 +152,18 @@ def _project(implicit: Implicit, points: Floats, rim: Booleans) -> Floats:
 
 
 def _split(vertices: Floats, quads: Integers) -> Integers:
-    """Each quadrilateral into two triangles along its shorter diagonal."""
-    one = np.linalg.norm(vertices[quads[:, 0]] - vertices[quads[:, 2]], axis=1)
-    two = np.linalg.norm(vertices[quads[:, 1]] - vertices[quads[:, 3]], axis=1)
-    first = np.where((one <= two)[:, None, None], quads[:, [[0, 1, 2], [0, 2, 3]]], quads[:, [[0, 1, 3], [1, 2, 3]]])
+    """Each quadrilateral into two triangles along the diagonal that leaves the larger of their smallest angles."""
+    splits = quads[:, [[0, 1, 2], [0, 2, 3]]], quads[:, [[0, 1, 3], [1, 2, 3]]]
+    one, two = (_smallest_angles(vertices[split.reshape(-1, 3)]).reshape(-1, 2).min(axis=1) for split in splits)
+    # equal but for rounding in symmetric places: the first then, on every machine
+    first = np.where((one >= two - 1e-9)[:, None, None], *splits)
     return np.ascontiguousarray(first.reshape(-1, 3))
+
+
+def _smallest_angles(corners: Floats) -> Floats:
+    """(m, 3, 3) corners -> (m,) smallest angle of each triangle, in radians."""
+    edges = np.roll(corners, -1, axis=1) - corners
+    back = -np.roll(edges, 1, axis=1)
+    sine = np.linalg.norm(np.cross(edges, back), axis=2)
+    found: Floats = np.arctan2(sine, np.einsum("mci,mci->mc", edges, back)).min(axis=1)
+    return found
