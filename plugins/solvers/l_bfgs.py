@@ -32,7 +32,7 @@ class LimitedMemoryBfgs(QuasiNewtonSolver):
     short = "L-BFGS"
     citation = "Smith & Schaefer 2015 [SS15]; Liu & Nocedal 1989; section 4.3"
 
-    pairs: int = parameter(5, "steps that are remembered", minimum=1, maximum=50)
+    pairs: int = parameter(10, "steps that are remembered", minimum=1, maximum=50)
     begin_with: Literal["identity", "laplacian"] = parameter("identity", "metric that the remembered steps correct")
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
 

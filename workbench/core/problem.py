@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 from scipy import sparse
@@ -51,6 +52,7 @@ class Workspace:
         self._blocks: tuple[VertexBlock, ...] | None = None
         self.seconds = {"assemble": 0.0, "line_search": 0.0}
         self.counts = {"energy": 0, "gradient": 0, "hessian": 0, "trials": 0}
+        self._looked_at = {"energy": 0, "gradient": 0}
         self.groups: tuple[bytes, list[np.ndarray]] | None = None
 
     @property
@@ -84,9 +86,18 @@ class Workspace:
         return {**self.seconds, **{part: sum(s[part] for s in systems) for part in ("factorise", "solve")}}
 
     def all_counts(self) -> dict[str, int]:
-        """How often so far: energy, gradient, hessian, line-search trials, factorise, solve."""
+        """How often so far: energy, gradient, hessian, line-search trials, factorise, solve.
+
+        Evaluations of parts of the mesh are added up to whole ones.
+        """
         systems = [s.counts for s in (self._system, self._laplacian) if s is not None]
-        return {**self.counts, **{part: sum(s[part] for s in systems) for part in ("factorise", "solve")}}
+        size = max(len(self._energy.elements.simplices), 1)
+        whole = {part: self.counts[part] + simplices // size for part, simplices in self._looked_at.items()}
+        return {**self.counts, **whole, **{part: sum(s[part] for s in systems) for part in ("factorise", "solve")}}
+
+    def count_part(self, part: Literal["energy", "gradient"], simplices: int) -> None:
+        """Count an evaluation on so many simplices alone."""
+        self._looked_at[part] += simplices
 
     @contextmanager
     def timed(self, part: str) -> Iterator[None]:

@@ -145,16 +145,18 @@ def restarted(problem: Problem, state: State) -> State:
 
 
 def characteristic_gradient(problem: Problem) -> float:
-    """Scale of the gradient norm, so that a tolerance means the same on every mesh (Zhu et al. 2018, section 5).
+    """Scale of the gradient norm, so that a tolerance means the same on every mesh and for every distortion.
 
-    The norm of the D_i at the identity (that of symmetric Dirichlet's pieces where D is flat there) times the norm of the
-    areas of the boundaries of the vertex stars.
+    The spectral norm of the D_ij at the identity, or a tenth aside where D has a kink, times the norm over the vertices of
+    what bounds their stars: lengths in the plane, areas in space. The norm of the D_i stands in where the D_ij vanish, as for
+    a sum of singular values. Source: Zhu, Bridson, Kaufman 2018, section 6.
     """
-    elements = problem.elements
+    elements, distortion = problem.elements, problem.distortion
     n = elements.dimension
-    faces = np.linalg.norm(elements.hat_gradients, axis=2) * elements.rest_measures[:, None]
-    star = np.zeros(elements.vertex_count)
-    np.add.at(star, elements.simplices.reshape(-1), faces.reshape(-1))
-    sigma = np.full((1, n), 1.1)
-    density = float(np.linalg.norm(problem.distortion.gradient(sigma)))
+    opposite = n * np.linalg.norm(elements.hat_gradients, axis=2) * elements.rest_measures[:, None]
+    star = np.bincount(elements.simplices.reshape(-1), opposite.reshape(-1), elements.vertex_count)
+    sigma = np.linspace(1.1, 0.9, n)[None, :] if problem.density.has_kinks else np.ones((1, n))
+    density = float(np.linalg.norm(distortion.hessian(sigma)[0], 2))
+    if density < 1e-12:
+        density = float(np.linalg.norm(distortion.gradient(sigma)))
     return max(density, 1e-30) * float(np.linalg.norm(star))

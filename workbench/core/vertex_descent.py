@@ -46,7 +46,9 @@ def descend_block(
 
     Source: Hormann & Greiner 2000; Fu, Liu, Guo 2015. Cost: O(simplices of the block) a trial.
     """
-    vertices, density = block.vertices, problem.density
+    vertices, density, count_part = block.vertices, problem.density, problem.workspace.count_part
+    count_part("gradient", len(block.simplices))
+    count_part("energy", len(block.simplices))
     gradient = block.gradients(density, positions) + _soft_gradients(problem, vertices, positions)
     gradient[~movable[vertices]] = 0.0
     squares = (gradient**2).sum(axis=1)
@@ -71,6 +73,7 @@ def descend_block(
         candidate[moving] -= steps[active, None] * gradient[active]
         if 2 * len(moving) < looked_at:  # copying the rest costs as much as computing it
             block, looked_at = block.narrowed(active), len(moving)
+        count_part("energy", len(block.simplices))
         after = block.energies(density, candidate, strict) + _soft_energies(problem, vertices, candidate)
         accepted = active & (after <= before - SUFFICIENT * steps * squares)
         positions[vertices[accepted]] = candidate[vertices[accepted]]
