@@ -38,6 +38,9 @@ def check_first_root(a: float, b: float, c: float, d: float) -> float:
         value, size = exact((a, b, c, d), t)
         assert value > -ROUNDING * size
     if found < math.inf:
+        # looked for up to somewhere alone, it is the same root, or none
+        assert smallest_positive_root_cubic(a, b, c, d, 1.5 * found) == pytest.approx(found, rel=1e-4)
+        assert smallest_positive_root_cubic(a, b, c, d, 0.5 * found) == math.inf
         value, size = exact((a, b, c, d), found)
         assert abs(value) <= ROUNDING * size
     return found

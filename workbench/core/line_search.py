@@ -152,8 +152,10 @@ def smallest_positive_root_quadratic(a, b, c):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
-def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
-    """Smallest t > 0 with a t^3 + b t^2 + c t + d = 0 for d > 0; inf where there is none, 0 where a coefficient is not finite.
+def smallest_positive_root_cubic(a, b, c, d, most=math.inf):  # type: ignore[no-untyped-def]
+    """Smallest t in (0, most] with a t^3 + b t^2 + c t + d = 0 for d > 0; inf where there is none.
+
+    0 where a coefficient is not finite: no step can be trusted then.
 
     The cubic is split at its turning points into monotone pieces; the first piece that ends at or below zero holds the root,
     which a bisection finds to the last bit: no closed form, no vanishing denominator. A root is met from below.
@@ -173,7 +175,7 @@ def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
             t2 = first[1]
     low = 0.0
     for k in range(3):
-        high = t1 if k == 0 else (t2 if k == 1 else math.inf)
+        high = min(t1 if k == 0 else (t2 if k == 1 else math.inf), most)
         if high == math.inf:
             # the last piece: it comes down to zero only if the leading behaviour is negative
             high = max(1.0, 2.0 * low)
@@ -188,6 +190,8 @@ def smallest_positive_root_cubic(a, b, c, d):  # type: ignore[no-untyped-def]
             if not found:
                 return math.inf
         elif ((a * high + b) * high + c) * high + d > 0.0:
+            if high == most:
+                return math.inf
             low = high
             continue
         for _ in range(1200):  # as many halvings as a float has: a turning point may lie absurdly far out
@@ -263,7 +267,7 @@ def _largest_step_3d(x, d, simplices, start, stop):  # type: ignore[no-untyped-d
             continue
         if best < math.inf and ((min(c3, 0.0) * best + min(c2, 0.0)) * best + min(c1, 0.0)) * best + c0 > 0.0:
             continue  # cannot reach zero before the best step so far
-        t = smallest_positive_root_cubic(c3, c2, c1, c0)
+        t = smallest_positive_root_cubic(c3, c2, c1, c0, best)
         if t < best:
             best = t
             index = e
