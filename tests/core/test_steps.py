@@ -99,6 +99,8 @@ def test_anchors_joined_by_edges_are_one_group() -> None:
     mesh = grid(4)
     groups = anchor_groups(mesh.simplices, np.array([0, 1, 2, 24, 12]))
     assert sorted(sorted(g.tolist()) for g in groups) == [[0, 1, 2], [3], [4]]
+    groups = anchor_groups(mesh.simplices, np.array([0, 1, 2, 24, 12]), np.array([-1, 7, 4, -1, 7]))
+    assert sorted(sorted(g.tolist()) for g in groups) == [[0], [1, 4], [2], [3]], "what is said counts for more than edges"
 
 
 @pytest.mark.parametrize("name", sorted(available_back_ends()))

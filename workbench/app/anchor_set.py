@@ -91,6 +91,11 @@ class AnchorSet:
         """(k,) int64"""
         return np.fromiter(self.targets, np.int64, len(self.targets))
 
+    @property
+    def group_numbers(self) -> Integers:
+        """(k,) int64, -1 for those that move alone"""
+        return np.array([self.groups.get(v, -1) for v in self.targets], dtype=np.int64)
+
     def target_array(self, dimension: int) -> Floats:
         """(k, d) float64"""
         return np.array(list(self.targets.values()), dtype=np.float64).reshape(len(self.targets), dimension)

@@ -380,6 +380,7 @@ class Document(QObject):
                 np.full(len(vertices), np.inf),
                 serial=self.anchor_serial,
                 dragging=dragging,
+                groups=self.anchors.group_numbers,
             )
         )
 

@@ -15,10 +15,15 @@ HALF_TURN = 1e-6
 """Radians from half a turn within which both ways round count as equally long."""
 
 
-def anchor_groups(simplices: Integers, anchored: Integers) -> list[Integers]:
-    """Rows of `anchored` (k,) by group: anchors joined by edges of the mesh move together."""
+def anchor_groups(simplices: Integers, anchored: Integers, numbers: Integers | None = None) -> list[Integers]:
+    """Rows of `anchored` (k,) by group: anchors joined by edges of the mesh move together.
+
+    `numbers` : (k,) int64     those of one number move together, whatever the mesh says; -1 leaves it to the mesh
+    """
     if not len(anchored):
         return []
+    if numbers is None:
+        numbers = np.full(len(anchored), -1, dtype=np.int64)
     row = np.full(int(simplices.max()) + 1, -1, dtype=np.int64)
     row[anchored] = np.arange(len(anchored))
     corners = row[simplices]
@@ -29,7 +34,12 @@ def anchor_groups(simplices: Integers, anchored: Integers) -> list[Integers]:
             both = (corners[:, a] >= 0) & (corners[:, b] >= 0)
             heads.append(corners[both, a])
             tails.append(corners[both, b])
+    numbered = np.argsort(numbers, kind="stable")[np.count_nonzero(numbers < 0) :]
+    heads.append(numbered[:-1])
+    tails.append(numbered[1:])
     i, j = np.concatenate(heads), np.concatenate(tails)
+    together = numbers[i] == numbers[j]
+    i, j = i[together], j[together]
     graph = sparse.coo_matrix((np.ones(len(i)), (i, j)), shape=(len(anchored), len(anchored)))
     count, labels = csgraph.connected_components(graph, directed=False)
     order = np.argsort(labels, kind="stable")

@@ -355,11 +355,11 @@ def _place_exactly(problem: Problem, candidate: Floats) -> None:
 
 
 def _groups(problem: Problem) -> list[np.ndarray]:
-    hard = problem.anchors.hard_vertices
-    key = hard.tobytes()
+    hard, numbers = problem.anchors.hard_vertices, problem.anchors.hard_groups
+    key = hard.tobytes() + numbers.tobytes()
     cached = problem.workspace.groups
     if cached is None or cached[0] != key:
-        cached = (key, anchor_groups(problem.elements.simplices, hard))
+        cached = (key, anchor_groups(problem.elements.simplices, hard, numbers))
         problem.workspace.groups = cached
     return cached[1]
 

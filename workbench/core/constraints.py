@@ -21,11 +21,13 @@ class Anchors:
     vertices : (k,) int64      each at most once
     targets : (k, d) float64
     weights : (k,) float64     inf is hard (the default), finite is the penalty weight |x - target|^2
+    groups : (k,) int64        anchors of one number turn together on their way; -1 (the default): those that edges join do
     """
 
     vertices: Integers
     targets: Floats
     weights: Floats = None  # type: ignore[assignment]
+    groups: Integers = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         vertices = frozen(np.asarray(self.vertices).reshape(-1), np.int64)
@@ -33,11 +35,15 @@ class Anchors:
         object.__setattr__(self, "vertices", vertices)
         object.__setattr__(self, "targets", frozen(self.targets))
         object.__setattr__(self, "weights", frozen(weights.reshape(-1)))
+        groups = np.full(len(vertices), -1) if self.groups is None else np.asarray(self.groups)
+        object.__setattr__(self, "groups", frozen(groups.reshape(-1), np.int64))
         targets = self.targets
         if targets.ndim != 2 or len(targets) != len(vertices) or len(self.weights) != len(vertices):
             raise WorkbenchError(
                 f"Anchors: {len(vertices)} vertices, targets of shape {targets.shape}; one row a vertex is needed."
             )
+        if len(self.groups) != len(vertices):
+            raise WorkbenchError(f"Anchors: {len(vertices)} vertices, {len(self.groups)} groups; one number each is needed.")
         if not np.isfinite(targets).all():
             raise WorkbenchError("Anchors: a target is not a finite number.")
         if len(np.unique(vertices)) != len(vertices):
@@ -71,6 +77,10 @@ class Anchors:
         return frozen(self.targets[self._hard])
 
     @cached_property
+    def hard_groups(self) -> Integers:
+        return frozen(self.groups[self._hard], np.int64)
+
+    @cached_property
     def soft(self) -> tuple[Integers, Floats, Floats]:
         """Vertices, targets and weights of the soft ones."""
         chosen = ~self._hard & (self.weights > 0)
@@ -89,6 +99,7 @@ class Anchors:
             np.concatenate([self.vertices, vertices[new]]),
             np.concatenate([self.targets, targets[new]]),
             np.concatenate([self.weights, np.full(int(new.sum()), np.inf)]),
+            np.concatenate([self.groups, np.full(int(new.sum()), -1)]),
         )
 
 

@@ -329,7 +329,8 @@ class EngineLoop:
         assert self._mesh is not None
         anchors = Anchors.none(self._mesh.dimension)
         if self._anchors is not None and len(self._anchors.vertices):
-            anchors = Anchors(self._anchors.vertices, self._anchors.targets, self._anchors.weights)
+            held = self._anchors
+            anchors = Anchors(held.vertices, held.targets, held.weights, held.groups)  # type: ignore[arg-type]
         if self._boundary_positions is not None:
             anchors = anchors.with_added(self._boundary(), self._boundary_positions)
         return anchors

@@ -71,7 +71,7 @@ class SetSolver(Command):
 
 @dataclass(frozen=True, eq=False)
 class SetAnchors(Command):
-    """All anchors: `vertices` (k,), `targets` (k, d), `weights` (k,) (inf is hard).
+    """All anchors: `vertices` (k,), `targets` (k, d), `weights` (k,) (inf is hard), `groups` (k,) (see `Anchors`; or None).
 
     `serial` is chosen by the sender (growing); `Snapshot.anchor_serial` tells which one a map has taken up.
     `dragging` is true while a hand holds one of them.
@@ -84,8 +84,11 @@ class SetAnchors(Command):
     weights: Floats
     serial: int = 0
     dragging: bool = False
+    groups: Integers | None = None
 
     def __post_init__(self) -> None:
+        if self.groups is not None:
+            object.__setattr__(self, "groups", frozen(self.groups, np.int64))
         object.__setattr__(self, "vertices", frozen(self.vertices, np.int64))
         object.__setattr__(self, "targets", frozen(self.targets))
         object.__setattr__(self, "weights", frozen(self.weights))
