@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 
 import numpy as np
 import pytest
@@ -47,3 +48,15 @@ def test_a_bar_is_twisted_without_an_inversion(cli, tmp_path, targets) -> None:
     if targets[-1] == 360:
         with np.load(out) as written:
             assert np.abs(written["X"][ends] - BAR.vertices[ends]).max() < 1e-8
+
+
+def test_the_linear_solver_can_be_chosen(cli, tmp_path, monkeypatch) -> None:
+    monkeypatch.setenv("WORKBENCH_LINEAR_SOLVER", "")  # put back in the end
+    anchors, out = tmp_path / "anchors.csv", tmp_path / "out.npz"
+    write_anchors(anchors, 45)
+    common = ("solve", "sample:bar-3d", "--out", out, "--quiet", "--iterations", "3")
+    for name in ("cg", "superlu"):
+        assert cli(*common, "--linear-solver", name).status == 0
+        assert os.environ["WORKBENCH_LINEAR_SOLVER"] == name
+    refused = cli(*common, "--linear-solver", "gauss")
+    assert refused.status == 2 and "no linear solver 'gauss'" in refused.err and "cg" in refused.err

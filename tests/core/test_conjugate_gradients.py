@@ -6,15 +6,19 @@ import numpy as np
 import pytest
 
 from tests.conftest import grid, tetrahedral_grid
+from workbench.core import linear_solver
 from workbench.core.arrays import Floats
 from workbench.core.conjugate_gradients import ConjugateGradients
-from workbench.core.constraints import LinearConstraints
+from workbench.core.constraints import Anchors, LinearConstraints
+from workbench.core.errors import WorkbenchError
 from workbench.core.linear_back_end import SingularMatrixError
-from workbench.core.linear_solver import make_linear_solver
+from workbench.core.linear_solver import CHOICE, make_linear_solver
 from workbench.core.newton_system import NewtonSystem
 from workbench.core.pattern import HessianPattern
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
+from workbench.core.run import run
+from workbench.core.status import Status
 
 CUBE = tetrahedral_grid(3)
 
@@ -23,7 +27,7 @@ def problem_of(mesh) -> tuple[Problem, Floats]:
     """A distortion with a barrier on a mesh, and a rough map of it without inversions."""
     problem = Problem.create(mesh, "plane" if mesh.dimension == 2 else "volume", registry().distortions["symmetric-dirichlet"])
     shear = np.array([[1.3, 0.4, 0.0], [0.0, 0.7, 0.1], [0.1, 0.0, 1.1]])[: mesh.dimension, : mesh.dimension]
-    x = (mesh.vertices + 0.02 * np.random.default_rng(0).normal(size=mesh.vertices.shape)) @ shear
+    x = (mesh.vertices + 0.01 * np.random.default_rng(0).normal(size=mesh.vertices.shape)) @ shear
     assert problem.inverted(x) == 0
     return problem, x
 
@@ -133,8 +137,36 @@ def test_the_same_input_gives_the_same_bits() -> None:
 
 
 def test_it_can_be_asked_for_by_name(monkeypatch) -> None:
+    monkeypatch.delenv(CHOICE, raising=False)
     pattern: HessianPattern = problem_of(CUBE)[0].density.pattern
     assert isinstance(make_linear_solver(pattern, "cg"), ConjugateGradients)
     assert not isinstance(make_linear_solver(pattern), ConjugateGradients)
-    monkeypatch.setenv("WORKBENCH_LINEAR_SOLVER", "cg")
+    with pytest.raises(WorkbenchError, match=r"no linear solver 'cgs' here; there are: .*cg"):
+        make_linear_solver(pattern, "cgs")
+    monkeypatch.setenv(CHOICE, "cg")
     assert isinstance(make_linear_solver(pattern), ConjugateGradients)
+
+
+def test_it_is_chosen_for_large_solids_and_for_nothing_else(monkeypatch) -> None:
+    monkeypatch.delenv(CHOICE, raising=False)
+    monkeypatch.setattr(linear_solver, "LARGE_SOLID", 3 * CUBE.vertex_count - 1)
+    solid, plane = problem_of(CUBE)[0].density, problem_of(grid(12))[0].density
+    assert plane.pattern.size > linear_solver.LARGE_SOLID
+    assert isinstance(make_linear_solver(solid.pattern), ConjugateGradients)
+    assert not isinstance(make_linear_solver(solid.scalar_pattern), ConjugateGradients)
+    assert not isinstance(make_linear_solver(plane.pattern), ConjugateGradients)
+
+
+def test_a_run_ends_at_the_same_minimum() -> None:
+    problem, x = problem_of(CUBE)
+    held = np.array([0, 3, 60])
+    anchors = Anchors(held, CUBE.vertices[held] + [[-0.2, 0.0, 0.1], [0.0, 0.1, 0.0], [0.3, 0.2, 0.2]])
+    ends = []
+    for name in ("cg", "multifrontal"):
+        own = Problem.create(CUBE, "volume", problem.distortion, anchors)
+        own.system._solver = make_linear_solver(own.density.pattern, name)
+        result = run(registry().solver("projected-newton")(), own, x, tolerance=1e-10)
+        assert result.state.status is Status.CONVERGED and result.state.inverted == 0
+        assert np.array_equal(result.state.positions[held], anchors.targets)
+        ends.append(result.state)
+    assert ends[0].energy == pytest.approx(ends[1].energy, rel=1e-8)

@@ -86,6 +86,7 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     add("--gradient-tolerance", type=amount, metavar="T", help="done as well at this characteristic gradient norm")
     add("--time-limit", type=amount, default=math.inf, metavar="SECONDS", help="stop after so long")
     add("--threads", type=positive_count, metavar="N", help="threads of the kernels and the linear algebra")
+    add("--linear-solver", metavar="NAME", help="multifrontal, cholmod, pardiso, superlu, cg (default: by size)")
     add("--seed", type=count, default=0, metavar="N", help="for methods that draw random numbers (default: 0)")
     add("--allow-inversions", action="store_true", help="let distortions without a barrier invert simplices")
     add("--quiet", action="store_true", help="no progress; errors are still said")

@@ -18,6 +18,7 @@ from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.initializer import Initializer
+from workbench.core.linear_solver import CHOICE, check_back_end
 from workbench.core.mesh import Mesh
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
@@ -64,6 +65,9 @@ def prepare_problem(
 
     Raises `WorkbenchError` for whatever does not fit.
     """
+    if options.linear_solver:
+        check_back_end(options.linear_solver)
+        os.environ[CHOICE] = options.linear_solver  # for processes that are started from here, too
     seconds: dict[str, float] = {}
     with _timed(seconds, "read"):
         opened = open_source(file, kind=options.map, fixes=options.fixes, tets=options.tets)

@@ -21,7 +21,8 @@ from workbench.core.pattern import HessianPattern
 
 TOLERANCE = 1e-3
 """Residual in the norm of the preconditioner's inverse at which a solution is good enough, as a part of that at 0."""
-MOST_ITERATIONS = 2000
+MOST_ITERATIONS = 500
+"""Beyond, the direction is taken as it is: it descends, and a factorisation would have been done by now."""
 LEAST_PIVOT = 0.05
 """Part of a pivot of A's diagonal block below which the incomplete one is not trusted: A's own block stands in."""
 
@@ -32,15 +33,16 @@ class ConjugateGradients(LinearSolver):
     Parameters
     ----------
     pattern : HessianPattern     d <= 3 coordinates a vertex; blocks are 3x3, with ones where a coordinate is missing
-    tolerance : float            see `TOLERANCE`
+    tolerance, most : float, int see `TOLERANCE` and `MOST_ITERATIONS`
 
     `iterations` : int           of the last solve
     """
 
     name = "cg"
 
-    def __init__(self, pattern: HessianPattern, tolerance: float = TOLERANCE) -> None:
+    def __init__(self, pattern: HessianPattern, tolerance: float = TOLERANCE, most: int = MOST_ITERATIONS) -> None:
         self.tolerance = tolerance
+        self.most = most
         self.iterations = 0
         self._pattern = pattern
         d, count = pattern.dimension, len(pattern.order)
@@ -87,9 +89,7 @@ class ConjugateGradients(LinearSolver):
         alone = np.flatnonzero(~self._coupled)
         x[alone] = np.linalg.solve(self._diagonal[alone], b[alone, :, None])[:, :, 0]
         b[alone] = 0.0
-        self.iterations = _conjugate_gradients(
-            self._starts, self._columns, *self._blocks, b, x, self.tolerance, MOST_ITERATIONS
-        )
+        self.iterations = _conjugate_gradients(self._starts, self._columns, *self._blocks, b, x, self.tolerance, self.most)
         if self.iterations < 0:
             raise SingularMatrixError("the matrix is not positive definite")
         solution = np.empty((count, d))
