@@ -96,6 +96,7 @@ def test_a_brush_marks_the_faces_of_its_tetrahedra(solid_window: MainWindow) -> 
     window.brush.brush([owners[0], hidden[0]], "a test")
     for view in (window.source.view, window.target.view):
         assert view.surface._brush._area.GetNumberOfPolys() == (owners == owners[0]).sum()
+        assert view.surface._brush._frames.GetNumberOfLines() == 12, "also what lies inside is found"
     window.brush.brush(hidden, "a test")
     assert not view.surface._brush.actors[0].GetVisibility()
     window.brush.clear()

@@ -17,6 +17,7 @@ from workbench.app.refining import Refining
 from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, SURFACE_FILTERS, Saver, SaveRequest
 from workbench.app.switches import name_of_distortion
+from workbench.app.verdict.judging import Judging
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ class Commands(QObject):
         self.dissection: DissectionWindow | None = None
         self.refining = Refining(window)
         self.racing = Racing(window)
+        self.judging = Judging(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
         document = window.document
@@ -68,6 +70,9 @@ class Commands(QObject):
             "signatures": self.show_signatures,
             "race": self.racing.ask,
             "dissect": self.show_dissection,
+            "judge": self.judging.ask,
+            "next-place": lambda: self.judging.walk(1),
+            "last-place": lambda: self.judging.walk(-1),
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
@@ -82,6 +87,7 @@ class Commands(QObject):
             self.signatures.wait()
         self.refining.wait()
         self.racing.close()
+        self.judging.close()
         if self.dissection is not None:
             self.dissection.close()
         if self._boundary_search is not None:

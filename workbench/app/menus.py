@@ -50,6 +50,9 @@ def fill_menus(window: MainWindow) -> None:
     analyse = bar.addMenu("&Analyse")
     for name in ("signatures", "dissect"):
         analyse.addAction(actions[name])
+    analyse.addSeparator()
+    for name in ("judge", "next-place", "last-place"):
+        analyse.addAction(actions[name])
     view = bar.addMenu("&View")
     for name in ("fit", "edges", "lock", "unbrush"):
         view.addAction(actions[name])

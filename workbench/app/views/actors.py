@@ -12,6 +12,9 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 from workbench.app.theme import Colour
 from workbench.core.arrays import Integers
 
+THROUGH = 2e4
+"""Nearer to the eye than all that is drawn otherwise: inverted tetrahedra are seen through those in front of them."""
+
 
 def cells(rows: Integers) -> vtkCellArray:
     """Cells of equal size, one a row."""

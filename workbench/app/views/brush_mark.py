@@ -4,27 +4,34 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.theme import BRUSH, BRUSH_CASING
-from workbench.app.views.actors import cells, line_actor, surface_actor
+from workbench.app.views.actors import THROUGH, cells, line_actor, surface_actor
 from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers
 
 TINT = 0.3
 """Opacity of the tint: what lies below it, the yellow of inverted triangles too, is still told apart."""
+MOST_FRAMES = 200
+"""Tetrahedra up to which the edges of all are drawn, also of those that lie inside."""
 
 
 @dataclass(frozen=True, eq=False)
 class BrushedPart:
-    """What is marked, the same in every view: rows of the triangles (k,), edges round them (e, 2)."""
+    """What is marked, the same in every view: rows of the triangles (k,), edges round them (e, 2).
+
+    `frames` (f, 2) are the edges of a few chosen tetrahedra, wherever they lie: these are seen through all that is before them.
+    """
 
     rows: Integers
     outline: Integers
+    frames: Integers
 
 
 class BrushedParts:
@@ -39,12 +46,20 @@ class BrushedParts:
 
         Its outline are the edges that belong to one triangle of the set only: lines inside it would hide its colours.
         """
-        rows = self._faces.rows_of(simplices[simplices < len(self._faces.corners)])
+        simplices = simplices[simplices < len(self._faces.corners)]
+        rows, frames = self._faces.rows_of(simplices), self._frames(simplices)
         if not len(rows):
-            return BrushedPart(rows, np.empty((0, 2), np.int64))
+            return BrushedPart(rows, np.empty((0, 2), np.int64), frames)
         edges, edges_of_triangle = self._edge_table
         counts = np.bincount(edges_of_triangle[rows].ravel(), minlength=len(edges))
-        return BrushedPart(rows, edges[counts == 1])
+        return BrushedPart(rows, edges[counts == 1], frames)
+
+    def _frames(self, simplices: Integers) -> Integers:
+        """All edges (f, 2) of tetrahedra, as long as they can be told apart."""
+        corners = self._faces.corners[simplices]
+        if corners.shape[1] == 3 or len(simplices) > MOST_FRAMES:
+            return np.empty((0, 2), np.int64)
+        return np.concatenate([corners[:, list(ends)] for ends in combinations(range(4), 2)])
 
     @cached_property
     def _edge_table(self) -> tuple[Integers, Integers]:
@@ -61,19 +76,23 @@ class BrushMark:
 
     def __init__(self, geometry: Geometry) -> None:
         self._geometry = geometry
-        self._area, self._outline = vtkPolyData(), vtkPolyData()
-        for part in (self._area, self._outline):
+        self._area, self._outline, self._frames = vtkPolyData(), vtkPolyData(), vtkPolyData()
+        for part in (self._area, self._outline, self._frames):
             part.SetPoints(geometry.vtk_points)
         tint: Any = surface_actor(self._area, BRUSH, nearer=9.0)
         tint.GetProperty().SetOpacity(TINT)
         casing = line_actor(self._outline, BRUSH_CASING, 5.0, nearer=14.0)
         core = line_actor(self._outline, BRUSH, 2.2, nearer=17.0)
-        self.actors = (tint, casing, core)
+        self._frame_actor = line_actor(self._frames, BRUSH, 1.6, nearer=1.5 * THROUGH)
+        self.actors = (tint, casing, core, self._frame_actor)
 
     def show(self, part: BrushedPart) -> None:
         """Mark these triangles, in place of those before."""
-        for actor in self.actors:
+        for actor in self.actors[:3]:
             actor.SetVisibility(len(part.rows) > 0)
+        self._frame_actor.SetVisibility(len(part.frames) > 0)
+        if len(part.frames):
+            self._frames.SetLines(cells(part.frames))
         if len(part.rows):
             self._area.SetPolys(cells(self._geometry.triangles[part.rows]))
             self._outline.SetLines(cells(part.outline))

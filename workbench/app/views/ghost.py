@@ -11,6 +11,9 @@ from workbench.app.views.actors import actor_of, cells, mapper_of
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers
 
+DARK_VEIL = (0.92, 0.95, 1.0)
+"""On black the same opacity of a mean grey would not be seen."""
+
 
 class Ghost:
     """Triangles between the vertices of one `Geometry`, seen through; hidden at first."""
@@ -32,7 +35,7 @@ class Ghost:
         self.show(None, 0.0)
 
     def set_theme(self, theme: Theme) -> None:
-        self.actor.GetProperty().SetColor(*theme.edges)
+        self.actor.GetProperty().SetColor(*(DARK_VEIL if theme.is_dark else theme.edges))
 
     def show(self, triangles: Integers | None, opacity: float) -> None:
         """Draw these triangles (k, 3), facing outwards; None draws none."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,12 +19,14 @@ from workbench.app.views.geometry import Geometry
 from workbench.app.views.overlay import Overlay
 from workbench.app.views.picking import ScreenTriangles, nearest_pixel
 from workbench.app.views.surface import Surface
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 
 REACH = 14.0
 """How far from a vertex, in pixels, the pointer may be over the background."""
 REACH_INSIDE = 60.0
 """The same over the mesh, where large triangles leave vertices far apart."""
+LEAST_SHOWN = 0.02
+"""Size of what is shown at least where a place is looked at, of the size of the mesh."""
 
 
 class MeshView(QWidget):
@@ -143,6 +146,14 @@ class MeshView(QWidget):
             self.fit()
         else:
             self.set_camera(camera)
+
+    def look_at(self, vertices: Integers, around: float) -> None:
+        """Bring vertices (k,) into the middle, and `around` times as much of what is round them, at most the whole mesh."""
+        if self.geometry_shown is not None and len(vertices):
+            points, size = self.geometry_shown.vertices[vertices], self.size_in_pixels
+            margin = max(around, LEAST_SHOWN / max(float(np.ptp(points, axis=0).max()), 1e-6))
+            near, whole = self.camera.fitted(points, size, margin), self.camera.fitted(self.geometry_shown.points, size)
+            self.set_camera(replace(near, half_height=min(near.half_height, whole.half_height)))
 
     def fit(self) -> None:
         """Bring the whole mesh into the view."""

@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.colour_range import ColourRange
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
-from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of, surface_actor
+from workbench.app.views.actors import THROUGH, actor_of, cells, line_actor, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
@@ -22,8 +22,6 @@ from workbench.app.views.ghost import Ghost
 from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
 from workbench.core.arrays import Booleans, Integers
 
-THROUGH = 2e4
-"""Nearer to the eye than all that is drawn otherwise: inverted tetrahedra are seen through those in front of them."""
 EDGES_UP_TO = 12_000
 """Triangles up to which their edges are drawn unasked."""
 MAP_SCALARS = 1

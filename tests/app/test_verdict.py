@@ -1,0 +1,78 @@
+"""The verdict on a map: its sentence, and walking through what is to blame."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from tests.app.fake_engine import solid_mesh
+from workbench.app.main_window import MainWindow
+from workbench.app.verdict.verdict_window import judged, words_of
+from workbench.core.mesh import Mesh
+
+
+def open_and_fold(window: MainWindow, qtbot: QtBot, source: str, kind: str, vertex: int) -> None:
+    """A map in which a vertex was pulled through the mesh while the others stay about where they are."""
+    window.open(source)
+    qtbot.waitUntil(lambda: window.document.kind == kind and window.document.positions is not None)
+    window.document.pin(np.arange(window.document.mesh.vertex_count))
+    place = window.document.positions[vertex] + np.array([0.9, 0.4, 0.3])[: window.document.mesh.dimension]
+    window.document.move_anchor(vertex, place, False)
+    qtbot.waitUntil(lambda: window.document.snapshot.inverted.any())
+
+
+@pytest.mark.parametrize(("source", "kind", "vertex"), [("grid", "plane", 110), ("solid", "volume", 42)])
+def test_places_to_blame_are_listed_marked_and_looked_at(
+    window: MainWindow, qtbot: QtBot, source: str, kind: str, vertex: int
+) -> None:
+    open_and_fold(window, qtbot, source, kind, vertex)
+    inverted = np.flatnonzero(window.document.snapshot.inverted)
+    QTest.keyClick(window, Qt.Key.Key_J, Qt.KeyboardModifier.ControlModifier)
+    judging = window.commands.judging
+    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0, timeout=60_000)
+    assert "inverted" in judging.list.words.text()
+    seen = []
+    for _ in inverted:
+        judging.walk(1)
+        seen.append(int(window.brush.simplices[0]))
+    assert seen == inverted.tolist()
+    middle = window.target.view.geometry_shown.points[window.document.mesh.simplices[seen[-1]]]
+    low, high = middle.min(axis=0), middle.max(axis=0)
+    pixel = window.target.view.project(0.5 * (low + high)[None])[0]
+    np.testing.assert_allclose(pixel, 0.5 * np.array(window.target.view.size_in_pixels), atol=0.2 * window.target.view.width())
+    judging.walk(1)
+    assert window.brush.simplices.tolist() == seen[:1], "round at the end"
+    judging.walk(-1)
+    assert window.brush.simplices.tolist() == seen[-1:]
+    judging.list.close()
+    qtbot.waitUntil(lambda: judging.list is None)
+
+
+def test_of_a_solid_the_place_can_be_drawn_alone_until_the_list_is_closed(window: MainWindow, qtbot: QtBot) -> None:
+    open_and_fold(window, qtbot, "solid", "volume", 42)
+    window.actions_by_name["next-place"].trigger()
+    judging = window.commands.judging
+    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0, timeout=60_000)
+    judging.walk(1)
+    judging.list.alone.setChecked(True)
+    drawn = window.target.view.geometry_shown
+    qtbot.waitUntil(lambda: set(drawn.faces.simplices.tolist()) == set(window.brush.simplices.tolist()))
+    judging.list.close()
+    qtbot.waitUntil(lambda: len(drawn.triangles) == len(window.volume.solid.boundary.triangles))
+
+
+def test_an_injective_map_says_so_and_blames_nothing() -> None:
+    mesh = solid_mesh((2, 2, 1))
+    words, offenders = judged(mesh, mesh.vertices)
+    assert words.startswith("Injective") and not offenders
+
+
+def test_a_boundary_that_meets_itself_is_told_by_its_pairs() -> None:
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    mesh = Mesh(np.vstack([corners, corners + 5.0]), np.array([[0, 1, 2, 3], [4, 5, 6, 7]]))
+    words, offenders = judged(mesh, np.vstack([corners, corners + 0.1]))
+    assert words.startswith("Locally injective, but not as a whole")
+    assert offenders[0].kind == "boundary" and "–" in words_of(offenders[0], 0)

@@ -1,0 +1,1 @@
+"""Whether the present map is injective, and where it is not."""
