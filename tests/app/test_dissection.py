@@ -72,6 +72,34 @@ def test_the_plot_holds_the_curve_its_trials_and_the_step(window: MainWindow, di
     assert low < step.after.energy < step.before.energy < high
 
 
+def test_trials_carry_their_numbers_and_the_legend_names_what_there_is(
+    window: MainWindow, dissection: DissectionWindow
+) -> None:
+    step = step_on(window)
+    answer(window, step)
+    assert len(step.trial_sizes) > 1, "this step is one of several trials"
+    plot = dissection.plot
+    shown = {(item.toPlainText(), item.pos().x(), item.pos().y()) for item in plot._numbers}
+    finite = np.flatnonzero(np.isfinite(step.trial_energies))
+    assert shown == {(str(row + 1), step.trial_sizes[row], step.trial_energies[row]) for row in finite.tolist()}
+    names = [label.text for _, label in plot.legend.items]
+    assert "step taken" in names and ("trials off the line" in names) == (not step.trial_on_line.all())
+    assert "inverts" in plot.bound.label.format
+
+
+def test_anchors_stand_where_they_are_wanted(window: MainWindow, dissection: DissectionWindow) -> None:
+    document = window.document
+    document.add_anchor(0)
+    document.move_anchor(0, document.positions[0] + [0.5, 0.1], False)
+    try:
+        answer(window, step_on(window))
+        scene, frame = dissection.view.overlay.scene, dissection.view.geometry_shown.frame
+        np.testing.assert_allclose(scene.anchor_points, frame.to_display(document.anchors.target_array(2)))
+        np.testing.assert_array_equal(scene.vertex_points, dissection.view.geometry_shown.points[[0]])
+    finally:
+        document.clear_anchors()
+
+
 def test_one_can_walk_along_the_step(window: MainWindow, dissection: DissectionWindow) -> None:
     step = step_on(window)
     answer(window, step)

@@ -133,6 +133,10 @@ class DissectionWindow(QDialog):
         ends = geometry.frame.to_display(positions[seen] + step.direction[seen])
         self.arrows.show_arrows(begins, ends - begins)
         scene = self.view.overlay.scene
+        held = self._document.anchors
+        scene.anchor_vertices = held.vertices
+        scene.anchor_points = geometry.frame.to_display(held.target_array(positions.shape[1]))
+        scene.vertex_points = geometry.points[held.vertices]
         scene.limiting = None
         if step.limiting_simplex >= 0:
             scene.limiting = geometry.points[geometry.simplices[step.limiting_simplex]]

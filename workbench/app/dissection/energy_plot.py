@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.docks.plots import calm, paint_axes
@@ -15,6 +16,8 @@ from workbench.core.dissection import Dissection
 
 REACH = 1.1
 """Part of the curve that fits into the plot, in its longest trial: barriers go up for ever."""
+MOST_NUMBERED = 12
+"""Trials up to which each carries its number."""
 MOST_ABOVE = 1.5
 """How far above the maps before and after the plot reaches, in what lies below them."""
 
@@ -35,24 +38,28 @@ class EnergyPlot(pg.PlotWidget):  # type: ignore[misc]
         self.trials = self.plot([], [], pen=None, symbol="o", symbolSize=9)
         self.elsewhere = self.plot([], [], pen=None, symbol="o", symbolSize=8)
         self.accepted = self.plot([], [], pen=None, symbol="star", symbolSize=16)
-        self.bound = pg.InfiniteLine(0.0, angle=90)
+        # its words stand along the line, on its left: the line is at the right end of the curve
+        words = {"position": 0.45, "rotateAxis": (1, 0), "anchors": [(0.5, 1.0), (0.5, 1.0)], "movable": False}
+        self.bound = pg.InfiniteLine(0.0, angle=90, label="a simplex inverts at t = {value:.4g}", labelOpts=words)
         self.marker = pg.InfiniteLine(0.0, angle=90, movable=True)
         for line in (self.bound, self.marker):
             self.addItem(line, ignoreBounds=True)
             line.hide()
         self.marker.sigPositionChanged.connect(lambda line: self.place_chosen.emit(float(line.value())))
+        self._numbers: list[pg.TextItem] = []
+        self._theme = theme
         self.legend = self.getPlotItem().addLegend(offset=(-8, 8), labelTextSize="8pt")
-        for item, name in (
-            (self.curve, "energy"),
-            (self.tangent, "its slope at t = 0"),
-            (self.trials, "trials"),
-            (self.elsewhere, "trials off the line"),
-            (self.accepted, "step taken"),
-        ):
-            self.legend.addItem(item, name)
+        self._named = {
+            self.curve: "energy",
+            self.tangent: "its slope at t = 0",
+            self.trials: "trials, in their order",
+            self.elsewhere: "trials off the line",
+            self.accepted: "step taken",
+        }
         self.set_theme(theme)
 
     def set_theme(self, theme: Theme) -> None:
+        self._theme = theme
         self.setBackground(theme.view)
         paint_axes(self.getPlotItem(), theme)
         self.curve.setPen(pg.mkPen(theme.accent, width=2))
@@ -64,10 +71,36 @@ class EnergyPlot(pg.PlotWidget):  # type: ignore[misc]
         self.accepted.setSymbolBrush(theme.curves[2])
         self.accepted.setSymbolPen(theme.text)
         self.bound.setPen(pg.mkPen(LIMITING, width=2))
+        self.bound.label.setColor(LIMITING)
         self.marker.setPen(pg.mkPen(theme.text, width=1.4, style=Qt.PenStyle.DotLine))
         self.marker.setHoverPen(pg.mkPen(theme.accent, width=3))
-        for _, label in self.legend.items:
-            label.setText(label.text, color=theme.text, size="8pt")
+        paper = QColor(theme.view)
+        paper.setAlpha(215)
+        self.legend.setBrush(paper)  # above the curve where the two meet
+        self._show_legend()
+        for number in self._numbers:
+            number.setColor(theme.text)
+
+    def _show_legend(self) -> None:
+        """Name what there is in this step."""
+        self.legend.clear()
+        for item, name in self._named.items():
+            if len(item.getOriginalDataset()[0] if item.getOriginalDataset()[0] is not None else ()):
+                self.legend.addItem(item, name)
+                self.legend.items[-1][1].setText(name, color=self._theme.text, size="8pt")
+
+    def _number_trials(self, step: Dissection) -> None:
+        """1, 2, 3 … beside the trials, in the order in which they were made."""
+        for number in self._numbers:
+            self.removeItem(number)
+        self._numbers = []
+        if not 1 < len(step.trial_sizes) <= MOST_NUMBERED:
+            return
+        for row in np.flatnonzero(np.isfinite(step.trial_energies)).tolist():
+            number = pg.TextItem(str(row + 1), color=self._theme.text, anchor=(-0.4, 0.5))
+            number.setPos(step.trial_sizes[row], step.trial_energies[row])
+            self.addItem(number, ignoreBounds=True)
+            self._numbers.append(number)
 
     def show_step(self, step: Dissection) -> None:
         """Draw a step; the marker stands where it ends."""
@@ -82,6 +115,8 @@ class EnergyPlot(pg.PlotWidget):  # type: ignore[misc]
             item.setData(step.trial_sizes[rows], step.trial_energies[rows])
         taken = [step.step_size] if step.step_size > 0 else []
         self.accepted.setData(taken, [step.after.energy] * len(taken))
+        self._number_trials(step)
+        self._show_legend()
         has_bound = math.isfinite(step.bound) and step.bound <= 1.05 * float(sizes[-1])
         self.bound.setVisible(has_bound)
         if has_bound:
