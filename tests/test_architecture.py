@@ -110,7 +110,7 @@ def test_dependencies_are_what_is_imported():
     foreign = {m for m in modules if m and m not in sys.stdlib_module_names and m != "workbench"}
     needed = {DISTRIBUTION_OF.get(module, module) for module in foreign}
     required = declared(project["dependencies"])
-    optional = declared(project["optional-dependencies"]["mkl"])
+    optional = declared([line for extra in ("mkl", "fill") for line in project["optional-dependencies"][extra]])
     assert needed <= required | optional
     assert required <= needed | INSTALLED_WITH_ANOTHER
 

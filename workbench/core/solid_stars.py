@@ -59,6 +59,13 @@ def overlapping_edges(tetrahedra: Integers, boundary: Integers, positions: Float
     return np.stack([unique[overlaps] // size, unique[overlaps] % size], axis=1)
 
 
+def dihedral_range(tetrahedra: Integers, positions: Floats) -> tuple[float, float]:
+    """Smallest and largest dihedral angle of all tetrahedra, in degrees."""
+    corners = np.concatenate([tetrahedra[:, list(order)] for order in _EDGES])
+    angles = np.degrees(_dihedral_angles(corners, positions))
+    return float(angles.min()), float(angles.max())
+
+
 def _dihedral_angles(corners: Integers, positions: Floats) -> Floats:
     """Angle (r,) of each tetrahedron at the edge of its first two corners."""
     a = positions[corners[:, 0]]

@@ -17,7 +17,7 @@ from workbench.core.threads import thread_count
 from workbench.engine.system_libraries import install_command, missing_libraries
 
 DISTRIBUTION = "distortion-workbench"
-OPTIONAL = ("pypardiso",)
+OPTIONAL = ("pypardiso", "pytetwild")
 PROBE = """
 import sys
 from PySide6.QtGui import QGuiApplication

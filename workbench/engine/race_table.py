@@ -16,7 +16,7 @@ def race_table(race: Race, mesh_name: str) -> list[dict[str, Any]]:
     """A row a contestant, as it stands now.
 
     `relative_error` is (E - best) / |best| to the least energy that any contestant reached with its anchors in place. The
-    columns `locally_injective` and `globally_injective` are the verdicts on its map: true, false, or None where it cannot be told.
+    columns `locally_injective` and `globally_injective` are the verdicts on its map: true, false, None where not told.
     """
     return [_row(race, racer, mesh_name) for racer in race.racers]
 
