@@ -31,6 +31,8 @@ QUANTITIES = {
     "gradient_norm": "gradient norm",
     "inverted": "inverted",
 }
+LETTERS = 112
+"""Of a row of the legend, about ten of them for each of its lines."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +79,9 @@ def convergence_curves(curves: Sequence[Curve], title: str = "") -> Figure:
     """
     from matplotlib.figure import Figure
 
-    columns = 3 if max((len(curve.label) for curve in curves), default=0) < 30 else 2
-    legend_rows = -(-len(curves) // columns)
+    fitting = max(LETTERS // (max((len(curve.label) for curve in curves), default=0) + 10), 1)
+    legend_rows = -(-len(curves) // fitting)
+    columns = -(-len(curves) // max(legend_rows, 1))  # rows of the legend alike in length
     figure = Figure(figsize=(2 * PANEL[0], len(QUANTITIES) * PANEL[1] + 0.5 + 0.2 * legend_rows), layout="constrained")
     heights = [1.0, 1.0, 1.0, 1.0 if any(curve.inverted.any() for curve in curves) else 0.35]
     panels = figure.subplots(
