@@ -80,6 +80,7 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     defaults = "rest; surfaces: tutte, or auto with --solver fast"
     add("--init", metavar="ID|FILE", help=f"start: an initializer, or a map in a file (default: {defaults})")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
+    add("--pin-boundary", action="store_true", help="hard anchors at all boundary vertices, where the start has them")
     add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")
     add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")
     add("--tolerance", type=amount, default=1e-6, metavar="T", help="relative energy decrease (default: 1e-6)")

@@ -92,6 +92,9 @@ def prepare_problem(
     )
     with _timed(seconds, "start"):
         start = _start(problem, opened, initializer, {**_seed(starter, options.seed), **for_start}, start_file)
+    if options.pin_boundary:
+        boundary = opened.mesh.topology.boundary_vertices
+        problem = problem.with_anchors(problem.anchors.with_added(boundary, start[boundary]))
     given = PreparedProblem(
         path=str(file), opened=opened, problem=problem, initializer=initializer, start=start, seconds=seconds
     )
