@@ -11,6 +11,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, pixel_of
+from tests.app.space_hand import anchor_face, face_of, facing_sides, middle_of_face, turn_by_ring
 from workbench.app.actions import TEXTS
 from workbench.app.handling.pacing import TurnPacer, turned_angle
 from workbench.app.handling.rigid_motion import RigidMotion
@@ -18,8 +19,7 @@ from workbench.app.main_window import MainWindow
 from workbench.app.views.mesh_view import MeshView
 from workbench.engine.messages import SetAnchors
 
-NONE, SHIFT, ALT, CTRL = (
-    Qt.KeyboardModifier.NoModifier,
+SHIFT, ALT, CTRL = (
     Qt.KeyboardModifier.ShiftModifier,
     Qt.KeyboardModifier.AltModifier,
     Qt.KeyboardModifier.ControlModifier,
@@ -40,21 +40,6 @@ def hold_and_move(view: MeshView, begin: QPoint, end: QPoint) -> Hand:
         hand.move(begin + (end - begin) * step / 5)
         QTest.qWait(20)
     return hand
-
-
-def middle_of_face(window: MainWindow, axis: int, side: int) -> QPoint:
-    """Where the middle of a side of the box-shaped source is drawn in the target, before anything moved."""
-    view = window.target.view
-    points = view.geometry_shown.points
-    edge = points[:, axis].max() if side > 0 else points[:, axis].min()
-    x, y = view.project(points[points[:, axis] == edge].mean(axis=0)[None])[0]
-    return QPoint(round(x), round(y))
-
-
-def facing_sides(window: MainWindow) -> list[tuple[int, int]]:
-    """(axis, side) of the faces of the source that the target's camera sees, the one it sees best first."""
-    sight = window.target.view.camera.axes[2]
-    return [(int(axis), 1 if sight[axis] > 0 else -1) for axis in np.argsort(-np.abs(sight))]
 
 
 def test_an_anchor_moves_in_the_plane_of_the_view_and_with_the_pointer(solid_window: MainWindow) -> None:
@@ -126,13 +111,6 @@ def test_a_drag_on_the_surface_turns_the_view_and_a_click_anchors(solid_window: 
     assert len(window.document.anchors) == 1
 
 
-def anchor_face(window: MainWindow, number: int = 0) -> np.ndarray:
-    axis, side = facing_sides(window)[number]
-    QTest.mouseClick(window.target.view.overlay, Qt.MouseButton.LeftButton, ALT, middle_of_face(window, axis, side))
-    along = window.document.mesh.vertices[:, axis]
-    return np.flatnonzero(along == (along.max() if side > 0 else along.min()))
-
-
 def test_a_whole_face_is_one_group_that_moves_and_goes_together(solid_window: MainWindow, qtbot: QtBot) -> None:
     window, view = solid_window, solid_window.target.view
     first = anchor_face(window)
@@ -152,26 +130,6 @@ def test_a_whole_face_is_one_group_that_moves_and_goes_together(solid_window: Ma
     assert after[alone] == before[alone]
     QTest.keyClick(window, Qt.Key.Key_Delete)
     assert sorted(window.document.anchors.vertices.tolist()) == np.setdiff1d(first, second).tolist()
-
-
-def turn_by_ring(window: MainWindow, axis: int, degrees: int) -> float:
-    """Drag the point of a ring that is farthest in front round by an angle; returns it in radians."""
-    view = window.target.view
-    gizmo = view.overlay.scene.gizmo
-    (ring,) = (h for h in gizmo.handles(view.camera, view.size_in_pixels) if (h.kind, h.axis) == ("ring", axis))
-    count = len(ring.pixels) - 1
-    places = [QPoint(*np.round(p).astype(int).tolist()) for p in ring.pixels[:-1]]
-    others = [h.pixels for h in gizmo.handles(view.camera, view.size_in_pixels) if (h.kind, h.axis) != ("ring", axis)]
-    clear = np.min([np.linalg.norm(ring.pixels[:-1, None] - pixels[None], axis=2).min(axis=1) for pixels in others], axis=0)
-    begin = int(np.argmax(np.where(ring.is_front[:-1], clear, 0.0)))
-    hand = Hand(view)
-    hand.press(places[begin])
-    steps = round(count * degrees / 360)
-    for step in range(1, steps + 1):
-        hand.move(places[(begin + step) % count])
-        QTest.qWait(17)
-    hand.release(places[(begin + steps) % count])
-    return 2.0 * math.pi * steps / count
 
 
 @pytest.mark.parametrize("is_running", [False, True])
@@ -206,7 +164,7 @@ def test_a_box_anchors_what_is_seen_and_with_ctrl_what_is_behind(solid_window: M
 
     seen, everything = draw(SHIFT), draw(SHIFT | CTRL)
     assert everything == window.document.mesh.vertex_count
-    at_three_faces = len(np.unique(np.concatenate([_face(window, axis, side) for axis, side in facing_sides(window)])))
+    at_three_faces = len(np.unique(np.concatenate([face_of(window, axis, side) for axis, side in facing_sides(window)])))
     assert seen == at_three_faces
     QTest.keyClick(window, Qt.Key.Key_B)
     window.document.clear_anchors()
@@ -217,11 +175,6 @@ def test_a_box_anchors_what_is_seen_and_with_ctrl_what_is_behind(solid_window: M
     QTest.keyClick(window, Qt.Key.Key_Escape)
     Hand(view).drag(low, QPoint(60, 60))
     assert not len(window.document.anchors), "Esc gave the box up: the drag turned the view"
-
-
-def _face(window: MainWindow, axis: int, side: int) -> np.ndarray:
-    along = window.document.mesh.vertices[:, axis]
-    return np.flatnonzero(along == (along.max() if side > 0 else along.min()))
 
 
 def test_the_right_button_offers_what_can_be_done(solid_window: MainWindow) -> None:

@@ -13,6 +13,7 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.quantities import Quantity
+from workbench.core.anchor_motion import anchor_groups
 from workbench.core.arrays import Floats, Integers
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
@@ -228,10 +229,11 @@ class Document(QObject):
             vertices = sample_anchors(self.session.source.removeprefix(SAMPLE))
         if vertices is None or not len(vertices):
             return
-        if targets is None:
-            self.set_anchors(AnchorSet.at(vertices, start))
-        else:
-            self.set_anchors(AnchorSet.to(vertices, targets))
+        anchors = AnchorSet.at(vertices, start) if targets is None else AnchorSet.to(vertices, targets)
+        if self.kind == "volume":  # faces that are anchored as a whole move as a whole
+            for rows in anchor_groups(self.loaded.mesh.simplices, vertices):
+                anchors = anchors.grouped(vertices[rows]) if len(rows) > 1 else anchors
+        self.set_anchors(anchors)
 
     # ------------------------------------------------------------------------------------------ watching
 
