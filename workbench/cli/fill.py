@@ -35,13 +35,15 @@ def run(options: argparse.Namespace) -> int:
     from workbench.core.fixes import apply_fixes
     from workbench.engine.filling import FillOptions, fill_surface
     from workbench.io.opening import read_source
+    from workbench.io.reading_fixes import split_fixes
     from workbench.io.write import write_map
 
     check_places(path for path in (options.out, options.report) if path)
     if Path(options.out).suffix.lower() not in ENDINGS:
         raise WorkbenchError(f"{options.out}: solids are written as {', '.join(ENDINGS)}; name a file with such an ending.")
-    file = read_source(options.surface)
-    surface = apply_fixes(file.mesh, options.fixes).mesh
+    reading, others = split_fixes(options.fixes)
+    file = read_source(options.surface, **reading)
+    surface = apply_fixes(file.mesh, others).mesh
     tell = teller(options.quiet)
     begin = time.perf_counter()
     limits = FillOptions(options.edge_length, options.time_limit, int(options.memory_limit * 2**30))
