@@ -55,12 +55,12 @@ class Fast(ProgressiveSolver):
         self, problem: Problem, state: State, evaluation: Evaluation, progress: Progress, interrupt: Interrupt
     ) -> tuple[State, Progress]:
         projected = problem.evaluate(state.positions, 2).hessian_values
-        exact = problem.evaluate(state.positions, 2, project=False).hessian_values
-        assert projected is not None and exact is not None
+        assert projected is not None
         rung, rest = progress.rung, max(progress.rest - 1, 0)
         if not progress.rest:
             rung = min(rung + 1, len(LADDER) - 1) if progress.is_close else 0
-        while rung:
+        exact = problem.evaluate(state.positions, 2, project=False).hessian_values if rung else None
+        while exact is not None and rung:
             values = LADDER[rung] * projected + (1.0 - LADDER[rung]) * exact
             following = self._mixed(problem, state, evaluation, values, interrupt)
             if following is not None:

@@ -93,6 +93,8 @@ class Pardiso(LinearSolver):
         import pypardiso
 
         self._solver = pypardiso.PyPardisoSolver(mtype=2)
+        for place, value in {1: 1, 2: 2, 24: 1}.items():  # own settings, METIS, factorisation in parallel at two levels
+            self._solver.set_iparm(place, value)
         # PARDISO takes the upper triangle by rows: that is the lower triangle by columns.
         self._matrix = sparse.csr_matrix(
             (np.ones(pattern.entry_count), pattern.rows, pattern.column_starts), shape=(pattern.size, pattern.size)

@@ -1,4 +1,4 @@
-"""BLAS and LAPACK for compiled kernels: SciPy's own, called by address, so that kernels stay cacheable and hold no lock.
+"""BLAS and LAPACK for compiled kernels, called by address, so that kernels stay cacheable and hold no lock.
 
 Every matrix is given by the address of its first entry and its leading dimension, by columns; only lower triangles are used.
 """
@@ -7,21 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
-from numba.extending import get_cython_function_address, intrinsic
-
-DENSE_ROUTINES = np.array(
-    [
-        get_cython_function_address("scipy.linalg.cython_lapack", "dpotrf"),
-        get_cython_function_address("scipy.linalg.cython_blas", "dtrsm"),
-        get_cython_function_address("scipy.linalg.cython_blas", "dsyrk"),
-        get_cython_function_address("scipy.linalg.cython_blas", "dgemm"),
-    ],
-    dtype=np.int64,
-)
-"""(4,) where dpotrf, dtrsm, dsyrk, dgemm lie in this process: an argument of kernels, for in cached code it would be stale."""
+from numba.extending import intrinsic
 
 _BYTE, _INT, _LONG, _DOUBLE = ir.IntType(8), ir.IntType(32), ir.IntType(64), ir.DoubleType()
 

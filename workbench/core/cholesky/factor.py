@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
-from functools import lru_cache
-
 import numpy as np
-from threadpoolctl import ThreadpoolController
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.cholesky.analysis import SymbolicFactor
-from workbench.core.cholesky.dense import DENSE_ROUTINES
 from workbench.core.cholesky.kernels import assemble_panel, factor_supernodes, pass_on, solve_backward, solve_forward
+from workbench.core.cholesky.routines import dense_routines, one_dense_thread
 from workbench.core.cholesky.tiled import eliminate_columns, update_matrix
 from workbench.core.threads import over_pieces
+
+LINE = 8
+"""Numbers in a cache line."""
 
 
 class NotPositiveDefiniteError(ArithmeticError):
@@ -25,8 +24,8 @@ class CholeskyFactor:
 
     def __init__(self, symbolic: SymbolicFactor) -> None:
         self.symbolic = symbolic
-        self._factor = np.zeros(symbolic.factor_size)
-        self._workspace = np.zeros(symbolic.workspace_size)
+        self._factor = _aligned_zeros(symbolic.factor_size)
+        self._workspace = _aligned_zeros(symbolic.workspace_size)
         self._subtrees = [(int(begin), int(end)) for begin, end in symbolic.subtrees]
         self._pieces = [np.arange(begin, end) for begin, end in symbolic.subtrees]
 
@@ -35,9 +34,9 @@ class CholeskyFactor:
         layout, factor, workspace = self.symbolic.layout, self._factor, self._workspace
 
         def subtree(piece: tuple[int, int]) -> bool:
-            return bool(factor_supernodes(*piece, layout, DENSE_ROUTINES, values, factor, workspace))
+            return bool(factor_supernodes(*piece, layout, dense_routines(), values, factor, workspace))
 
-        with _one_dense_thread():
+        with one_dense_thread():
             fine = all(over_pieces(subtree, self._subtrees)) and all(
                 self._eliminate(node, values) for node in self.symbolic.top
             )
@@ -93,11 +92,8 @@ class CholeskyFactor:
         return layout.rows[layout.row_starts[supernode] + columns : layout.row_starts[supernode + 1]]
 
 
-@lru_cache(maxsize=1)
-def _dense_libraries() -> ThreadpoolController:
-    return ThreadpoolController()
-
-
-def _one_dense_thread() -> AbstractContextManager[object]:
-    """Dense routines use the calling thread meanwhile: there is one call a core at a time already."""
-    return _dense_libraries().limit(limits=1, user_api="blas")
+def _aligned_zeros(size: int) -> Floats:
+    """At a multiple of a cache line, wherever: routines may sum in another order for another alignment."""
+    memory = np.zeros(size + LINE)
+    offset = -memory.ctypes.data // memory.itemsize % LINE
+    return memory[offset : offset + size]

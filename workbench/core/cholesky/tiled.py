@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from workbench.core.arrays import Floats
-from workbench.core.cholesky.dense import DENSE_ROUTINES
 from workbench.core.cholesky.kernels import factor_tile, has_finite_diagonal, solve_tile, subtract_tile
+from workbench.core.cholesky.routines import dense_routines
 from workbench.core.threads import over_pieces
 
 TILE = 128
@@ -18,6 +18,7 @@ def eliminate_columns(factor: Floats, panel: int, columns: int, height: int) -> 
 
     False where a pivot is not positive and finite.
     """
+    routines = dense_routines()
     base = factor.ctypes.data + 8 * panel
 
     def at(row: int, column: int) -> int:
@@ -26,19 +27,19 @@ def eliminate_columns(factor: Floats, panel: int, columns: int, height: int) -> 
     for begin in range(0, columns, TILE):
         end = min(begin + TILE, columns)
         width = end - begin
-        if factor_tile(DENSE_ROUTINES, width, at(begin, begin), height) != 0:
+        if factor_tile(routines, width, at(begin, begin), height) != 0:
             return False
         if not has_finite_diagonal(factor, panel + begin * (height + 1), width, height):
             return False
 
         def solve(row: int, begin: int = begin, width: int = width) -> None:
             rows = min(STRIP, height - row)
-            solve_tile(DENSE_ROUTINES, rows, width, at(begin, begin), height, at(row, begin), height)
+            solve_tile(routines, rows, width, at(begin, begin), height, at(row, begin), height)
 
         def update(column: int, begin: int = begin, width: int = width) -> None:
             wide, tall = min(TILE, columns - column), height - column
             source, target = at(column, begin), at(column, column)
-            subtract_tile(DENSE_ROUTINES, tall, wide, width, source, height, source, height, 1, target, height)
+            subtract_tile(routines, tall, wide, width, source, height, source, height, 1, target, height)
 
         over_pieces(solve, range(end, height, STRIP))
         over_pieces(update, range(end, columns, TILE))
@@ -47,12 +48,13 @@ def eliminate_columns(factor: Floats, panel: int, columns: int, height: int) -> 
 
 def update_matrix(factor: Floats, panel: int, columns: int, height: int, workspace: Floats, scratch: int) -> None:
     """The lower triangle of -B B^T into `workspace[scratch]`, B the rows of the panel below its first `columns`."""
+    routines = dense_routines()
     below = height - columns
     source, target = factor.ctypes.data + 8 * (panel + columns), workspace.ctypes.data + 8 * scratch
 
     def square(column: int) -> None:
         wide, tall = min(TILE, below - column), below - column
         rows, corner = source + 8 * column, target + 8 * column * (below + 1)
-        subtract_tile(DENSE_ROUTINES, tall, wide, columns, rows, height, rows, height, 0, corner, below)
+        subtract_tile(routines, tall, wide, columns, rows, height, rows, height, 0, corner, below)
 
     over_pieces(square, range(0, below, TILE))
