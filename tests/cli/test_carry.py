@@ -14,6 +14,7 @@ from workbench.core.carried_surface import carry
 from workbench.core.jacobians import build_elements
 from workbench.core.mesh import Mesh
 from workbench.core.quality import simplex_table
+from workbench.io.opening import open_source
 from workbench.io.read import read_mesh
 from workbench.io.write import write_map
 
@@ -50,12 +51,23 @@ def test_the_surface_goes_with_the_volume(cli, tmp_path, case, cube, sheet, endi
         rows = list(csv.DictReader(carried_out.read_text().splitlines()))
         expected = simplex_table(sheet, moved)["symmetric-dirichlet"]
         np.testing.assert_array_equal([float(row["symmetric-dirichlet"]) for row in rows], expected)
-    elif ending == ".npz":
-        np.testing.assert_array_equal(read_mesh(carried_out).map_positions, moved)
     else:
-        back = read_mesh(carried_out).mesh
-        np.testing.assert_array_equal(back.vertices, moved)
-        np.testing.assert_array_equal(back.simplices, sheet.simplices)
+        back = read_mesh(carried_out)
+        positions = back.mesh.vertices if ending == ".obj" else back.map_positions
+        np.testing.assert_array_equal(positions, moved)
+        np.testing.assert_array_equal(back.mesh.simplices, sheet.simplices)
+    if ending in (".npz", ".vtu"):
+        np.testing.assert_array_equal(back.mesh.vertices, sheet.vertices)
+        assert open_source(str(carried_out)).start is None, "a map into space is no start of one to the plane"
+        told = cli("signatures", carried_out, "--json").json["maps"][0]
+        areas = build_elements(sheet).rest_measures
+        expected = simplex_table(sheet, moved)["average-singular-value"] @ areas / areas.sum()
+        assert told["mean"] == pytest.approx(expected, rel=1e-9)
+    if ending != ".csv":
+        of_file = (surface, carried_out) if ending == ".obj" else (carried_out,)
+        measured = cli("measure", *of_file, "--json").json
+        assert measured["measures"] == strict_json(report.read_text())["carried"]["measures"]
+        assert measured["injective"]["local"] is measured["injective"]["global"] is None
     if ending == ".vtu":
         content = meshio.vtu.read(str(carried_out))
         for name, values in simplex_table(sheet, moved).items():

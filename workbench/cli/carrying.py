@@ -53,16 +53,17 @@ def read_carried(options: argparse.Namespace, opened: OpenedSource) -> Carried |
 
 def carried_report(carried: Carried, positions: Floats) -> dict[str, Any]:
     """What `--report` tells of it under one map of the volume: counts, and statistics of the surface's own map."""
-    from workbench.core.quality import measure_surface
+    from workbench.core.quality import measure_map
 
     surface = carried.surface
+    measured = measure_map(surface.surface, surface.at(positions))
     return {
         "path": carried.path,
         "vertices": surface.surface.vertex_count,
         "triangles": surface.surface.simplex_count,
         "outside": surface.outside_count,
         "farthest": surface.farthest,
-        **measure_surface(surface.surface, surface.at(positions)),
+        **{name: measured[name] for name in ("measures", "degenerate", "min_det", "histogram78")},
     }
 
 

@@ -9,14 +9,19 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
-from workbench.core.jacobians import Elements, build_elements, determinants, signed_singular_values
+from workbench.core.jacobians import build_elements
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
-from workbench.core.surface_jacobians import surface_singular_values
+from workbench.core.surface_jacobians import determinants_of_any, is_into_space, singular_values_of_any
 
 HISTOGRAM_BINS = 64
 DEGENERATE = 1e-12
 """A simplex is degenerate where |det J| is at most this part of sigma_1^n."""
+
+NO_SIDES = {
+    "local": None, "global": None, "reason": "Triangles in space have no orientation of their own, so there is no verdict.",
+}  # fmt: skip
+"""Verdicts on a map of a surface into space."""
 
 
 def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
@@ -35,7 +40,7 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
 
 def simplex_measures_of(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
     """What is measured of each simplex of a map: every registered distortion by id, and `others` by theirs, each (m,)."""
-    sigma = SingularValues(_singular_values(build_elements(mesh), positions))
+    sigma = SingularValues(singular_values_of_any(build_elements(mesh), positions))
     return _values_of(sigma, others)
 
 
@@ -47,33 +52,19 @@ def _values_of(sigma: SingularValues, others: Iterable[Measure] = ()) -> dict[st
 
 
 def simplex_table(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
-    """Columns of a table of simplices, each (m,): sigma_1 .. sigma_n (signed), det, inverted (0 or 1), each measure, and the
-    area or volume in the source. Of a surface in space, which has no orientation, det is the factor of area."""
+    """Columns of a table of simplices, each (m,).
+
+    sigma_1 .. sigma_n (signed), det, inverted (0 or 1), each measure, and `area` or `source_volume` of the source.
+    Triangles in space have no orientation: their det is the factor of area.
+    """
     elements = build_elements(mesh)
-    sigma = _singular_values(elements, positions)
+    sigma = singular_values_of_any(elements, positions)
     columns = {f"sigma_{i + 1}": sigma[:, i] for i in range(elements.dimension)}
-    is_surface = positions.shape[1] > elements.dimension
-    columns["det"] = sigma.prod(axis=1) if is_surface else determinants(elements, positions)
+    columns["det"] = determinants_of_any(elements, positions)
     columns["inverted"] = np.where(columns["det"] > 0, 0.0, 1.0)
     columns |= _values_of(SingularValues(sigma), others)
-    return columns | {"area" if elements.dimension == 2 else "volume": elements.rest_measures}
-
-
-def _singular_values(elements: Elements, positions: Floats) -> Floats:
-    of_surface = positions.shape[1] > elements.dimension
-    return surface_singular_values(elements, positions) if of_surface else signed_singular_values(elements, positions)
-
-
-def measure_surface(mesh: Mesh, positions: Floats) -> dict[str, Any]:
-    """Measures of a map of a surface into space, from `mesh` to `positions` (n, 3), as `measure_map` has those of others."""
-    elements = build_elements(mesh)
-    sigma = surface_singular_values(elements, positions)
-    values = _values_of(SingularValues(sigma))
-    return {
-        "measures": {id: statistics(of_each, elements.rest_measures) for id, of_each in values.items()},
-        "degenerate": int(np.count_nonzero(sigma[:, 1] <= DEGENERATE * sigma[:, 0])),
-        "area": {"source": float(elements.rest_measures.sum()), "target": float(elements.rest_measures @ sigma.prod(axis=1))},
-    }
+    # the distortion (31) has the name `volume`
+    return columns | {"area" if elements.dimension == 2 else "source_volume": elements.rest_measures}
 
 
 def measure_map(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Any]:
@@ -82,7 +73,7 @@ def measure_map(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -
     Parameters
     ----------
     mesh : Mesh                    the source
-    positions : (n, d) float64     the map
+    positions : (n, d) float64     the map; of triangles also into space, where nothing is upright or inverted
     others : Measure ...           measured beside every registered distortion
 
     Returns
@@ -92,29 +83,29 @@ def measure_map(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -
 
     Raises `WorkbenchError` for one of `others` that is no measure in this dimension.
     """
-    from workbench.core.injectivity import global_injectivity, local_injectivity
-
     elements = build_elements(mesh)
     positions = np.ascontiguousarray(positions, dtype=np.float64)
-    sigma = signed_singular_values(elements, positions)
-    det = determinants(elements, positions)
-    values = simplex_measures_of(mesh, positions, others)
+    sigma = singular_values_of_any(elements, positions)
+    det = determinants_of_any(elements, positions)
+    values = _values_of(SingularValues(sigma), others)
     measures = {id: statistics(of_each, elements.rest_measures) for id, of_each in values.items()}
     edges, counts = average_histogram(np.abs(sigma).mean(axis=1))
-    local = local_injectivity(mesh, positions)
-    whole = global_injectivity(mesh, positions)
+    into_space = is_into_space(elements, positions)
     return {
         "measures": measures,
-        "inverted": int(np.count_nonzero(~(det > 0))),
+        "inverted": 0 if into_space else int(np.count_nonzero(~(det > 0))),
         "degenerate": int(np.count_nonzero(np.abs(sigma[:, -1]) <= DEGENERATE * np.abs(sigma[:, 0]))),
         "min_det": float(det.min()),
-        "injective": {
-            "local": local.holds,
-            "global": whole.holds,
-            "reason": whole.reason if local.holds else local.reason,
-        },
+        "injective": dict(NO_SIDES) if into_space else _verdicts(mesh, positions),
         "histogram78": {"edges": edges.tolist(), "counts": counts.tolist()},
     }
+
+
+def _verdicts(mesh: Mesh, positions: Floats) -> dict[str, Any]:
+    from workbench.core.injectivity import global_injectivity, local_injectivity
+
+    local, whole = local_injectivity(mesh, positions), global_injectivity(mesh, positions)
+    return {"local": local.holds, "global": whole.holds, "reason": whole.reason if local.holds else local.reason}
 
 
 def statistics(values: Floats, weights: Floats) -> dict[str, float]:

@@ -10,8 +10,9 @@ import numpy as np
 from workbench.core.arrays import Floats, frozen
 from workbench.core.errors import WorkbenchError
 from workbench.core.histogram import bin_edges, weight_in_bins
-from workbench.core.jacobians import build_elements, signed_singular_values
+from workbench.core.jacobians import build_elements
 from workbench.core.mesh import Mesh
+from workbench.core.surface_jacobians import singular_values_of_any
 
 BINS = 64
 TAIL = 0.001
@@ -69,7 +70,7 @@ def signature(mesh: Mesh, positions: Floats, name: str = "") -> Signature:
     Raises `MeshError` where the source is degenerate. Source: (78), Ben-Chen & Gotsman 2008.
     """
     elements = build_elements(mesh)
-    sizes = np.abs(signed_singular_values(elements, positions))
+    sizes = np.abs(singular_values_of_any(elements, positions))
     areas = elements.rest_measures
     return Signature(name or mesh.name, sizes.mean(axis=1), areas / areas.sum())
 

@@ -1,4 +1,4 @@
-"""Singular values of a map from a surface to a surface in space: triangles in, triangles out, both without a sign."""
+"""Singular values of maps from surfaces to surfaces in space: triangles in, triangles out, both without a sign."""
 
 from __future__ import annotations
 
@@ -8,7 +8,25 @@ import numba
 import numpy as np
 
 from workbench.core.arrays import Floats
-from workbench.core.jacobians import Elements
+from workbench.core.jacobians import Elements, determinants, signed_singular_values
+
+
+def is_into_space(elements: Elements, positions: Floats) -> bool:
+    """Whether a map takes triangles into space, where they have no orientation of their own (45)."""
+    return bool(positions.shape[1] > elements.dimension)
+
+
+def singular_values_of_any(elements: Elements, positions: Floats) -> Floats:
+    """(m, n) singular values, descending; signed where the map has an orientation."""
+    values = surface_singular_values if is_into_space(elements, positions) else signed_singular_values
+    return values(elements, positions)
+
+
+def determinants_of_any(elements: Elements, positions: Floats) -> Floats:
+    """(m,) signed factors of area or volume; of a surface in space without a sign."""
+    if is_into_space(elements, positions):
+        return np.asarray(surface_singular_values(elements, positions).prod(axis=1))
+    return determinants(elements, positions)
 
 
 def surface_singular_values(elements: Elements, positions: Floats) -> Floats:

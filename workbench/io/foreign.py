@@ -17,12 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from workbench.core.arrays import Integers
+from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
 from workbench.io.linear_elements import Blocks, is_of_higher_order, linear_blocks, without_inner_vertices
 from workbench.io.memory_limit import limited_memory
-from workbench.io.mesh_file import mesh_of_file
+from workbench.io.mesh_file import finite_rows, mesh_of_file
 from workbench.io.polygons import fan
 
 FORMATS = {
@@ -41,10 +41,12 @@ ENTITIES = re.compile(rb"\$Entities\b.*?\$EndEntities\s*", re.DOTALL)
 """The part of a Gmsh file that says which groups its parts are in."""
 
 
-def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[Mesh, tuple[str, ...]]:
-    """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), and notes.
+def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[Mesh, tuple[str, ...], Floats | None]:
+    """The tetrahedra of a file where it has any, else its triangles (polygons are fanned), notes, and a map.
 
-    With `linearise`, elements of higher order become linear ones on their corners; their other vertices are dropped.
+    There is a map where the points have a field `source`, as `write_map` makes it: these are the vertices then, and the
+    map is where the points are. With `linearise`, elements of higher order become linear ones on their corners; their
+    other vertices are dropped.
     """
     module, name = FORMATS[path.suffix.lower()]
     if name == "PLY":
@@ -58,26 +60,28 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
             content = _read(path, str(plain), module, len(data))
     if content is None:
         raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
-    points, blocks, regions = content
+    points, blocks, regions, source = content
     if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
         raise MeshError(f"{path}: there are no vertices in it.")
     blocks, inner = linear_blocks(blocks) if linearise else (blocks, np.empty(0, dtype=np.int64))
-    mesh, notes = _mesh_of_blocks(path, points, blocks)
+    has_map = source is not None and not len(inner)
+    mesh, notes = _mesh_of_blocks(path, source if has_map else points, blocks)
     if len(inner):
         mesh, note = without_inner_vertices(mesh, inner)
         notes = (note, *notes)
     if regions > 1:
         notes += (f"The {regions} regions that the file marks were taken as one mesh.",)
-    return mesh, notes
+    return mesh, notes, finite_rows(path, "of its points", points, len(points), (3,)) if has_map else None
 
 
-def _read(path: Path, place: str, module: str, size: int) -> tuple[Any, Blocks, int] | None:
-    """Points, elements and the count of regions of the file at `place`; None where meshio cannot read it."""
+def _read(path: Path, place: str, module: str, size: int) -> tuple[Any, Blocks, int, Any] | None:
+    """Points, elements, count of regions and field `source` of the file at `place`; None where meshio cannot read it."""
     with silenced(), np.errstate(all="ignore"), limited_memory(size):
         try:
             content = importlib.import_module(f"meshio.{module}").read(place)
             blocks = [(str(block.type), block.data) for block in content.cells]
-            return np.asarray(content.points), blocks, _region_count(content)
+            points = np.asarray(content.points)
+            return points, blocks, _region_count(content), _source_of(content, points)
         except MemoryError:
             raise MeshError(f"{path}: it asks for far more memory than its size warrants; a number in it is damaged.") from None
         except (Exception, SystemExit):
@@ -129,6 +133,13 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
     solid = sorted(kinds - known)
     if solid:
         raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")
+
+
+def _source_of(content: Any, points: Any) -> Any:
+    """Where the points are in the source, (n, 3); None where the file does not say."""
+    source = content.point_data.get("source")
+    is_table = source is not None and np.shape(source) == points.shape == (len(points), 3)
+    return np.asarray(source) if is_table and np.asarray(source).dtype.kind == "f" else None
 
 
 def _region_count(content: Any) -> int:

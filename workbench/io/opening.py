@@ -19,7 +19,7 @@ from workbench.core.method import Kind
 from workbench.io.mesh_file import MeshFile
 from workbench.io.read import read_mesh
 from workbench.io.reading_fixes import split_fixes
-from workbench.io.start_file import fit_dimension, map_from_file
+from workbench.io.start_file import fit_dimension, leads_into_space, map_from_file
 
 __all__ = ["SAMPLE", "OpenedSource", "UnsuitableSourceError", "map_from_file", "open_source", "read_source"]
 
@@ -105,6 +105,8 @@ def _given_map(file: MeshFile, mesh: Mesh, kind: Kind) -> tuple[Floats | None, I
     if mesh.vertex_origin is not None:
         return None, None, None, "The start and the anchors of the case were left out: a fix changed its vertices."
     path = Path(file.path)
+    if file.start is not None and kind != "volume" and leads_into_space(file.start, mesh):
+        return None, None, None, "The map that the file holds leads into space, and was left out."
     start = None if file.start is None else fit_dimension(path, file.start, mesh, kind)
     targets = file.anchor_targets
     if targets is not None and targets.shape[1] != (3 if kind == "volume" else 2):

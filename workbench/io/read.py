@@ -48,8 +48,8 @@ def read_mesh(path: str | os.PathLike[str], *, tets: bool = False, linearise: bo
             mesh, notes = read_stl(path, data)
             return MeshFile(mesh, str(path), "STL", digest, notes=notes)
         if ending in foreign.FORMATS:
-            mesh, notes = foreign.read_foreign(path, data, linearise=linearise)
-            return MeshFile(mesh, str(path), foreign.FORMATS[ending][1], digest, notes=notes)
+            mesh, notes, moved = foreign.read_foreign(path, data, linearise=linearise)
+            return MeshFile(mesh, str(path), foreign.FORMATS[ending][1], digest, moved, moved, notes=notes)
         if ending == ".npz":
             return _case_file(read_npz(path, data), path, "case (npz)", digest)
         if ending == ".mat":

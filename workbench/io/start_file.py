@@ -38,16 +38,26 @@ def map_from_file(path: str | os.PathLike[str], mesh: Mesh, kind: Kind) -> Float
 
     Raises `MeshError` where the file does not fit the mesh: what differs, and what to do.
     """
+    return fit_dimension(Path(path), positions_in_file(path, mesh, kind), mesh, kind)
+
+
+def positions_in_file(path: str | os.PathLike[str], mesh: Mesh, kind: Kind) -> Floats:
+    """As `map_from_file`, with as many columns as the file has."""
     path = Path(path)
     bare = _bare_positions(path)
     if bare is not None:
-        return fit_dimension(path, _on_vertices(path, bare, mesh), mesh, kind)
+        return _on_vertices(path, bare, mesh)
     found = read_mesh(path, tets=kind == "volume", linearise=True)
     if found.map_positions is not None:
-        return fit_dimension(path, _on_vertices(path, found.map_positions, mesh), mesh, kind)
+        return _on_vertices(path, found.map_positions, mesh)
     if kind != "volume" and found.mesh.texture is not None and (kind == "parameterize" or _same_places(found, mesh)):
         return _texture_on_vertices(path, found.mesh, mesh)
-    return fit_dimension(path, _on_vertices(path, found.mesh.vertices, mesh), mesh, kind)
+    return _on_vertices(path, found.mesh.vertices, mesh)
+
+
+def leads_into_space(positions: Floats, mesh: Mesh) -> bool:
+    """Whether positions (n, 2|3) of the vertices of a surface lie in no plane."""
+    return mesh.dimension == 2 and positions.shape[1] == 3 and not is_flat(Mesh(positions, mesh.simplices))
 
 
 def fit_dimension(path: Path, positions: Floats, mesh: Mesh, kind: Kind) -> Floats:
@@ -60,10 +70,9 @@ def fit_dimension(path: Path, positions: Floats, mesh: Mesh, kind: Kind) -> Floa
         return frozen(positions)
     if columns == 3:
         raise MeshError(f"{path}: a map of a volume needs positions with three columns; these have two.")
-    target = Mesh(positions, mesh.simplices)
-    if not is_flat(target):
+    if leads_into_space(positions, mesh):
         raise MeshError(f"{path}: its positions are not flat, so they are no map to the plane; name a file of one.")
-    return frozen(plane_coordinates(target))
+    return frozen(plane_coordinates(Mesh(positions, mesh.simplices)))
 
 
 def _bare_positions(path: Path) -> Floats | None:
