@@ -10,13 +10,17 @@ import numpy as np
 from workbench.core.constraints import Anchors
 from workbench.core.mesh import Mesh
 
+SOFT = 1e5
+"""Weight of anchors, which are soft in libigl's SLIM: that of its own examples."""
 
-def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
+
+def slim_solver(mesh: Mesh, start: np.ndarray, anchors: Anchors | None = None) -> Callable[[int], np.ndarray]:
     """A function `iterations -> positions (n, d)` that goes on from where it was; symmetric Dirichlet, free boundary.
 
     Without anchors libigl's matrix is singular by a translation; it regularises that by itself.
     """
     dimension = start.shape[1]
+    anchors = anchors or Anchors.none(dimension)
     points = np.zeros((mesh.vertex_count, 3))
     points[:, : mesh.vertices.shape[1]] = mesh.vertices
     data = igl.slim_precompute(
@@ -24,9 +28,9 @@ def slim_solver(mesh: Mesh, start: np.ndarray) -> Callable[[int], np.ndarray]:
         np.asfortranarray(mesh.simplices.astype(np.int32)),
         np.asfortranarray(start),
         igl.MappingEnergyType.SYMMETRIC_DIRICHLET,
-        np.empty(0, dtype=np.int32),
-        np.asfortranarray(np.empty((0, dimension))),
-        0.0,
+        anchors.hard_vertices.astype(np.int32),
+        np.asfortranarray(anchors.hard_targets),
+        SOFT if len(anchors.vertices) else 0.0,
     )
 
     def advance(iterations: int) -> np.ndarray:
