@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import runpy
 import shlex
 
 import pytest
@@ -10,6 +11,8 @@ import pytest
 from workbench.cli.main import build_parser
 from workbench.core.registry import load_plugin, load_registry
 from workbench.core.solver_laws import try_laws
+from workbench.core.status import Status
+from workbench.io.read import read_mesh
 
 README = "README.md"
 
@@ -59,6 +62,20 @@ def test_the_example_of_a_solver_keeps_every_law(readme, tmp_path):
     assert set(found.solvers) == {"conjugate-gradients"}
     broken = [finding for finding in try_laws(found.solvers["conjugate-gradients"]()) if not finding.holds]
     assert not broken
+
+
+def test_the_example_of_a_notebook_runs(readme, tmp_path, monkeypatch, capsys):
+    lines = code_lines(readme)
+    first = lines.index("import numpy as np")
+    last = next(i for i in range(first, len(lines)) if lines[i].startswith("write_surface("))
+    script = tmp_path / "notebook.py"
+    script.write_text("\n".join(lines[first : last + 1]) + "\n")
+    monkeypatch.chdir(tmp_path)
+    found = runpy.run_path(str(script))
+    assert "'global': True" in capsys.readouterr().out
+    assert found["result"].state.status is Status.CONVERGED
+    moved = read_mesh(tmp_path / "figure.vtu")
+    assert abs(moved.map_positions - moved.mesh.vertices).max() > 0.5
 
 
 def test_links_lead_somewhere(readme, project_root):
