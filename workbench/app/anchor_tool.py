@@ -22,6 +22,7 @@ CLICK_SLACK = 4.0
 """Pixels that the hand may move between press and release of a click."""
 DRAG_INTERVAL = 16
 """Milliseconds between two moves that are passed on: 60 a second."""
+BOX_HINT = "Box round vertices · with Ctrl: also those behind · Esc: none"
 LEFT, SHIFT, ALT, CTRL = (
     Qt.MouseButton.LeftButton,
     Qt.KeyboardModifier.ShiftModifier,
@@ -112,6 +113,7 @@ class AnchorTool(NavigationTool):
         if self._box_armed or event.modifiers() & SHIFT:
             self._box_from = event.position()
             self._keys.listen(True)
+            scene.hint = BOX_HINT if self.can_rotate else ""
             return
         vertex = self.view.anchor_at(pixel)
         if vertex >= 0:
@@ -135,6 +137,7 @@ class AnchorTool(NavigationTool):
         self._was_moved = False
         self._keys.listen(True)
         scene = self.view.overlay.scene
+        scene.hint = hold.hint()
         self._taken_from = scene.anchor_points[scene.is_selected].mean(axis=0)
         self.taken_up.emit()
 
@@ -164,6 +167,7 @@ class AnchorTool(NavigationTool):
         hot = (handle.kind, handle.axis) if handle is not None else None
         if hot != scene.hot_handle:
             scene.hot_handle = hot
+            scene.hint = "" if handle is None else handle.words()
             self.view.overlay.update()
         self.hovered.emit(-1 if handle is not None else self._vertex_under(pixel))
 
@@ -216,7 +220,7 @@ class AnchorTool(NavigationTool):
         self._throttle.stop()
         self._keys.listen(False)
         scene = self.view.overlay.scene
-        scene.hold_words, scene.guide = "", None
+        scene.hold_words, scene.hint, scene.guide = "", "", None
         self.end_box()
 
     def cancel(self) -> None:
@@ -269,6 +273,8 @@ class AnchorTool(NavigationTool):
         self._box_armed = True
         self._keys.listen(True)
         self.view.overlay.setCursor(Qt.CursorShape.CrossCursor)
+        self.view.overlay.scene.hint = BOX_HINT
+        self.view.overlay.update()
 
     def _close_box(self, event: QMouseEvent) -> None:
         begin, end = self._box_from or event.position(), event.position()
@@ -290,6 +296,7 @@ class AnchorTool(NavigationTool):
         """Draw no box, or no longer."""
         was_armed, self._box_armed, self._box_from = self._box_armed, False, None
         self.view.overlay.scene.box = None
+        self.view.overlay.scene.hint = ""
         self.view.overlay.unsetCursor()
         self.view.overlay.update()
         self._keys.listen(False)

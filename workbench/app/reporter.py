@@ -183,7 +183,9 @@ class Reporter(QObject):
         elif self._document.wants_to_run:
             self._window.status.say("The solver is starting.")
         else:
-            self._window.status.say("At rest. Space runs; a click sets an anchor; drag anchors in the target.")
+            self._window.status.say(
+                "At rest. Space runs; a click sets an anchor, Alt+click those of a whole face; drag anchors in the target."
+            )
 
     def show_numbers(self) -> None:
         """Bring the numbers of the status bar up to date."""

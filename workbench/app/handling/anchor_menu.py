@@ -98,7 +98,7 @@ class AnchorMenu(QObject):
         """The next drag in either view draws a box."""
         for tool in (self._window.source_tool, self._window.target_tool):
             tool.arm_box()
-        self._window.status.say("Drag a box round vertices to anchor them as one group; with Ctrl also those behind. Esc ends.")
+        self._window.status.say("Drag a box in either view; Esc gives it up.")
 
     # ------------------------------------------------------------------------------------------ numbers
 

@@ -32,6 +32,11 @@ class Handle:
     pixels: Floats
     is_front: Booleans
 
+    def words(self) -> str:
+        """What dragging it does."""
+        deed = "turns about" if self.kind == "ring" else "pulls along"
+        return f"{deed} {'xyz'[self.axis]}"
+
 
 @dataclass(frozen=True, eq=False)
 class Gizmo:

@@ -27,6 +27,10 @@ class Hold(Protocol):
         """What to say beside the pointer; empty where there is nothing to say."""
         ...
 
+    def hint(self) -> str:
+        """What keys do meanwhile."""
+        ...
+
 
 class Pull:
     """Anchors are pulled; the pointer keeps the place at which it took them."""
@@ -47,6 +51,12 @@ class Pull:
 
     def words(self) -> str:
         return "" if self.lock == FREE else f"{self.lock.name}: {np.linalg.norm(self._shift):.4g}"
+
+    def hint(self) -> str:
+        geometry = self._view.geometry_shown
+        if geometry is not None and geometry.is_flat:
+            return "X, Y: axis · Esc: back"
+        return "X, Y, Z: axis · with Shift: plane · N: normal · Esc: back"
 
 
 class RingTurn:
@@ -71,6 +81,9 @@ class RingTurn:
 
     def words(self) -> str:
         return f"about {self._name}: {math.degrees(self._angle):.0f}°"
+
+    def hint(self) -> str:
+        return "Ctrl: stops of 15° · Esc: back"
 
 
 def hold_of(view: MeshView, gizmo: Gizmo, handle: Handle, begin: Pixel) -> Hold:

@@ -54,7 +54,7 @@ class OverlayScene:
     vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
     are selected, and that move with others. `hot_handle` is the kind and axis of the handle of the `gizmo` that is meant;
     `guide` (2, 3) the line along which anchors are pulled, `hold_words` what to say about that at the pixel `hold_at`;
-    `box` two corners in pixels.
+    `box` two corners in pixels; `hint` a line at the lower edge, what keys and buttons would do now.
     """
 
     anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
@@ -68,6 +68,7 @@ class OverlayScene:
     hold_words: str = ""
     hold_at: QPointF = field(default_factory=QPointF)
     box: tuple[QPointF, QPointF] | None = None
+    hint: str = ""
     hovered: int = -1
     hovered_point: Points | None = None
     limiting: Points | None = None
@@ -147,6 +148,7 @@ class Overlay(QWidget):
         self._paint_hovered(painter)
         self._paint_box(painter)
         self._label(painter, self.scene.hold_at + QPointF(16, -10), self.scene.hold_words)
+        self._label(painter, QPointF(8, self.height() - 6), self.scene.hint)
         painter.end()
 
     def _paint_message(self, painter: QPainter) -> None:
