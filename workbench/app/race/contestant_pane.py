@@ -17,7 +17,6 @@ from workbench.app.theme import Theme
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Floats
-from workbench.core.mesh import Mesh
 from workbench.engine.messages import SetAnchors
 
 PHASES = {"running": "running", "finished": "done", "failed": "failed", "given": "given map"}
@@ -106,9 +105,9 @@ class ContestantPane(QWidget):
 
     # ------------------------------------------------------------------------------------------ content
 
-    def show_mesh(self, start: Floats, mesh: Mesh, anchors: SetAnchors) -> None:
+    def show_mesh(self, geometry: Geometry, anchors: SetAnchors) -> None:
         """Another race: its start, in the frame that all views share."""
-        self.geometry_shown = Geometry(start, mesh.simplices)
+        self.geometry_shown = geometry
         self.view.show_geometry(self.geometry_shown)
         self._show_anchors(anchors)
 

@@ -13,7 +13,10 @@ from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.view_turns import ViewTurns
 from workbench.app.theme import Theme
+from workbench.app.views.camera import slanted_axes
+from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.flat_picture import compile_pictures
+from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView, box_corners
 
 GAP = 3
@@ -88,26 +91,32 @@ class ViewGrid(QWidget):
     def _show_mesh(self) -> None:
         start, set_up = self._model.start, self._model.set_up
         assert start is not None
-        width, height = np.maximum(np.ptp(start, axis=0), 1e-12)
+        seen = start if start.shape[1] == 2 else start @ slanted_axes()[:2].T
+        width, height = np.maximum(np.ptp(seen, axis=0), 1e-12)
         self._aspect = float(width / height)
+        faces = drawn_faces(set_up.mesh.simplices)
         for pane in self.panes:
-            pane.show_mesh(start, set_up.mesh, set_up.anchors)
+            pane.show_mesh(Geometry(start, set_up.mesh.simplices, faces), set_up.anchors)
         self._place()
         self.restyle()
         self.fit()
 
     def restyle(self) -> None:
         """Give every view the colours of the one range, and draw it anew."""
-        for index, pane in enumerate(self.panes):
-            surface = pane.view.surface
-            if surface is None:
-                continue
-            pane.is_reference = self._colours.is_plain(pane.shown)
-            if pane.is_reference:
-                surface.show_plain()
-            else:
-                surface.show_range(self._colours.range)
-            self.turns.make_stale(index)
+        for place in range(len(self.panes)):
+            self._restyle(place)
+
+    def _restyle(self, place: int) -> None:
+        pane = self.panes[place]
+        surface = pane.view.surface
+        if surface is None:
+            return
+        pane.is_reference = self._colours.is_plain(pane.shown)
+        if pane.is_reference:
+            surface.show_plain()
+        else:
+            surface.show_range(self._colours.range)
+        self.turns.make_stale(place)
 
     def _contestant_changed(self, index: int) -> None:
         depends_on_all = self._colours.mode != "own" and index == self._colours.reference
@@ -142,7 +151,7 @@ class ViewGrid(QWidget):
             if pane.shown != places[place] or pane.is_flipped != (places[place] != place):
                 pane.shown, pane.is_flipped = places[place], places[place] != place
                 pane.show_record(self._model.records[pane.shown])
-        self.restyle()
+                self._restyle(place)
 
     # ------------------------------------------------------------------------------------------ camera
 
