@@ -99,9 +99,7 @@ class Race:
 
     # ------------------------------------------------------------------------------------------- turns
 
-    def advance(
-        self, slice_seconds: float = SLICE, interrupt: Interrupt = never, patience: float = math.inf
-    ) -> Racer | None:
+    def advance(self, slice_seconds: float = SLICE, interrupt: Interrupt = never, patience: float = math.inf) -> Racer | None:
         """A turn for the running contestant that has spent the least; at least one step, until its slice is over.
 
         Returns the contestant, None where the race is over. `interrupt` ends the turn within a trial of a line search.
