@@ -64,7 +64,7 @@ def analyse_pattern(pattern: HessianPattern) -> SymbolicFactor:
     count = len(first) - 1
     supernode_of = np.repeat(np.arange(count), np.diff(first))
     parents = np.append(supernode_of, count)[parent[first[1:] - 1]]
-    row_starts, rows, in_parent = supernode_rows(starts, neighbours, order, place, first, parents)
+    row_starts, rows, in_parent = supernode_rows(starts, neighbours, order, place, first, parents, counts)
 
     columns = d * np.diff(first)
     heights = d * np.diff(row_starts)

@@ -5,14 +5,15 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from workbench.core.arrays import Integers
+
 SMALL, MIDDLE = 8, 32
 """Columns up to which much and some padding pays: dense routines are slow on narrow panels."""
 MUCH, SOME, LITTLE = 0.7, 0.2, 0.07
 """Largest parts of stored zeros: in supernodes up to `SMALL`, up to `MIDDLE`, and in wider ones."""
 
 
-@numba.njit(nogil=True, cache=True)
-def supernode_starts(parent, counts, width):  # type: ignore[no-untyped-def]
+def supernode_starts(parent: Integers, counts: Integers, width: int) -> Integers:
     """(s + 1,) first column of each supernode, and n; a column stands for `width` coordinates.
 
     Parameters
@@ -21,10 +22,15 @@ def supernode_starts(parent, counts, width):  # type: ignore[no-untyped-def]
 
     Source: Ashcraft, Grimes 1989, "The influence of relaxed supernode partitions on the multifrontal method".
     """
+    first = np.empty(len(parent) + 1, dtype=np.int64)
+    count = _merge(parent, counts, np.concatenate([[0], np.cumsum(counts)]), width, first)
+    return first[: count + 1].copy()
+
+
+@numba.njit(nogil=True, cache=True)
+def _merge(parent, counts, entries_before, width, first):  # type: ignore[no-untyped-def]
+    """Write `first`, where the last supernode so far may still be merged; how many there are."""
     n = len(parent)
-    entries_before = np.zeros(n + 1, dtype=np.int64)
-    entries_before[1:] = np.cumsum(counts)
-    first = np.empty(n + 1, dtype=np.int64)  # of the supernodes so far; the last one may still be merged
     count = 0
     end = 0
     while end < n:
@@ -45,11 +51,18 @@ def supernode_starts(parent, counts, width):  # type: ignore[no-untyped-def]
         first[count] = begin
         count += 1
     first[count] = n
-    return first[: count + 1].copy()
+    return count
 
 
-@numba.njit(nogil=True, cache=True)
-def supernode_rows(starts, neighbours, order, place, first, parent):  # type: ignore[no-untyped-def]
+def supernode_rows(
+    starts: Integers,
+    neighbours: Integers,
+    order: Integers,
+    place: Integers,
+    first: Integers,
+    parent: Integers,
+    counts: Integers,
+) -> tuple[Integers, Integers, Integers]:
     """Rows of each supernode, ascending, its own columns first.
 
     Parameters
@@ -58,6 +71,7 @@ def supernode_rows(starts, neighbours, order, place, first, parent):  # type: ig
     order, place : (n,) int64    column -> vertex and back
     first : (s + 1,) int64
     parent : (s,) int64          of each supernode, s at the roots
+    counts : (n,) int64          entries of each column of the factor
 
     Returns
     -------
@@ -65,31 +79,31 @@ def supernode_rows(starts, neighbours, order, place, first, parent):  # type: ig
     there is none (own columns, roots)
     """
     n, count = len(order), len(first) - 1
-    row_starts = np.zeros(count + 1, dtype=np.int64)
-    rows = np.empty(4 * n, dtype=np.int64)
+    row_starts = np.concatenate([[0], np.cumsum(np.diff(first) + counts[first[1:] - 1] - 1)])
+    rows = np.empty(row_starts[-1], dtype=np.int64)
+    _gather_rows(starts, neighbours, order, place, first, parent, row_starts, rows)
+    owner = np.repeat(np.arange(count), np.diff(row_starts))
+    keys = np.sort(owner * n + rows)
+    rows = keys - owner * n
+    in_parent = np.full(len(rows), -1, dtype=np.int64)
+    passed_on = (rows >= first[owner + 1]) & (parent[owner] < count)
+    above = parent[owner[passed_on]]
+    in_parent[passed_on] = np.searchsorted(keys, above * n + rows[passed_on]) - row_starts[above]
+    return row_starts, rows, in_parent
+
+
+@numba.njit(nogil=True, cache=True)
+def _gather_rows(starts, neighbours, order, place, first, parent, row_starts, rows):  # type: ignore[no-untyped-def]
+    """Write the rows of every supernode: its columns, what the matrix has below them, and what its children pass on."""
+    n, count = len(order), len(first) - 1
     child_head = np.full(count + 1, -1, dtype=np.int64)
     sibling = np.full(count, -1, dtype=np.int64)
     mark = np.full(n, -1, dtype=np.int64)
-    filled = 0
     for s in range(count):
-        begin, end = first[s], first[s + 1]
-        start = filled
-        bound = end - begin
-        for column in range(begin, end):
-            bound += starts[order[column] + 1] - starts[order[column]]
-        child = child_head[s]
-        while child >= 0:
-            bound += row_starts[child + 1] - row_starts[child]
-            child = sibling[child]
-        if filled + bound > len(rows):
-            larger = np.empty(2 * (filled + bound), dtype=np.int64)
-            larger[:filled] = rows[:filled]
-            rows = larger
-        for column in range(begin, end):
-            mark[column] = s
+        filled, end = row_starts[s], first[s + 1]
+        for column in range(first[s], end):
             rows[filled] = column
             filled += 1
-        for column in range(begin, end):
             vertex = order[column]
             for k in range(starts[vertex], starts[vertex + 1]):
                 row = place[neighbours[k]]
@@ -99,27 +113,12 @@ def supernode_rows(starts, neighbours, order, place, first, parent):  # type: ig
                     filled += 1
         child = child_head[s]
         while child >= 0:
-            for k in range(row_starts[child] + first[child + 1] - first[child], row_starts[child + 1]):
+            for k in range(row_starts[child], row_starts[child + 1]):
                 row = rows[k]
                 if row >= end and mark[row] != s:
                     mark[row] = s
                     rows[filled] = row
                     filled += 1
             child = sibling[child]
-        rows[start + end - begin : filled] = np.sort(rows[start + end - begin : filled])
-        row_starts[s + 1] = filled
-        if parent[s] < count:
-            sibling[s] = child_head[parent[s]]
-            child_head[parent[s]] = s
-    rows = rows[:filled].copy()
-    in_parent = np.full(filled, -1, dtype=np.int64)
-    where = np.empty(n, dtype=np.int64)
-    for s in range(count):
-        above = parent[s]
-        if above == count:
-            continue
-        for k in range(row_starts[above], row_starts[above + 1]):
-            where[rows[k]] = k - row_starts[above]
-        for k in range(row_starts[s] + first[s + 1] - first[s], row_starts[s + 1]):
-            in_parent[k] = where[rows[k]]
-    return row_starts, rows, in_parent
+        sibling[s] = child_head[parent[s]]
+        child_head[parent[s]] = s

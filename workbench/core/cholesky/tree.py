@@ -8,6 +8,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 
+from workbench.core.arrays import Integers
+
 
 @numba.njit(nogil=True, cache=True)
 def elimination_tree(starts, neighbours, order, place):  # type: ignore[no-untyped-def]
@@ -50,16 +52,21 @@ def column_counts(starts, neighbours, order, place, parent):  # type: ignore[no-
     return counts
 
 
-@numba.njit(nogil=True, cache=True)
-def postorder(parent, weight):  # type: ignore[no-untyped-def]
+def postorder(parent: Integers, weight: Integers) -> Integers:
     """(n,) columns, children before parents and a subtree in one piece; of several children the one of most `weight` last.
 
     The last child is next to its parent, where the two can be merged.
     """
+    result: Integers = _postorder(parent, np.argsort(weight, kind="stable"))
+    return result
+
+
+@numba.njit(nogil=True, cache=True)
+def _postorder(parent, lightest_first):  # type: ignore[no-untyped-def]
     n = len(parent)
     head = np.full(n + 1, -1, dtype=np.int64)
     following = np.full(n, -1, dtype=np.int64)
-    for column in np.argsort(weight, kind="mergesort"):  # pushed in front: the heaviest comes first, and leaves the stack last
+    for column in lightest_first:  # pushed in front: the heaviest comes first, and leaves the stack last
         following[column] = head[parent[column]]
         head[parent[column]] = column
     result = np.empty(n, dtype=np.int64)
