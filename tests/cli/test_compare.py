@@ -115,6 +115,56 @@ def test_several_meshes_and_kinds_in_one_table(cli, square_file, dome_file, cube
         assert {path.name for path in (out / mesh).iterdir()} == {name for name in FILES if name[:5] in ("curve", "sheet")}
 
 
+@pytest.fixture
+def cube_file(cube, tmp_path):
+    np.savez(tmp_path / "cube.npz", V=cube.vertices, S=cube.simplices, X0=cube.vertices * [1.2, 1.0, 0.9])
+    return tmp_path / "cube.npz"
+
+
+def test_what_does_not_fit_is_refused_by_name_and_the_rest_goes_on(cli, square_file, cube_file, tmp_path):
+    broken = tmp_path / "broken.obj"
+    broken.write_text("v 0 0 0\nf 1 2 3\n")
+    out = tmp_path / "race"
+    solvers = "composite-majorization,slim"
+    result = cli("compare", broken, cube_file, square_file, "--solvers", solvers, "--rows", "last", "--out", out)
+    assert result.status == 1
+    table = rows_of(out / "table.csv")
+    assert [(row["mesh"], row["contestant"], row["status"]) for row in table] == [
+        ("broken", "composite-majorization", "REFUSED"),
+        ("broken", "slim", "REFUSED"),
+        ("cube", "slim", "CONVERGED"),
+        ("cube", "composite-majorization", "REFUSED"),
+        ("square", "composite-majorization", "CONVERGED"),
+        ("square", "slim", "CONVERGED"),
+    ]
+    for row in table:
+        assert (row["status"] == "REFUSED") == (row["energy"] == "") == (row["iterations"] == "")
+    assert "does not solve volume maps" in table[3]["message"] and table[3]["solver"] == "composite-majorization"
+    told = [line for line in result.err.splitlines() if line.startswith("workbench: ")]
+    assert [line.split()[1] for line in told] == ["broken:", "cube,"]  # a mesh once, a contestant by name
+    assert "composite-majorization" in told[1] and "REFUSED" in result.out
+    races = strict_json((out / "table.json").read_text())["races"]
+    assert [len(race["contestants"]) for race in races] == [2, 2, 2]
+    assert races[0]["refused"] == table[0]["message"] and "refused" not in races[1]
+    assert {path.name for path in out.iterdir() if path.is_dir()} == {"cube", "square"}
+    assert {row["mesh"] for row in rows_of(out / "history.csv")} == {"cube", "square"}
+
+
+def test_where_nothing_fits_every_mesh_is_named_and_nothing_is_written(cli, cube_file, tmp_path):
+    broken = tmp_path / "broken.obj"
+    broken.write_text("v 0 0 0\nf 1 2 3\n")
+    result = cli("compare", broken, cube_file, "--solvers", "composite-majorization", "--out", tmp_path / "race")
+    assert result.status == 2 and result.out == ""
+    assert str(broken) in result.err and str(cube_file) in result.err
+    assert not (tmp_path / "race").exists()
+
+
+def test_a_fault_of_the_command_is_told_once_for_many_meshes(cli, square_file, dome_file, tmp_path):
+    result = cli("compare", square_file, dome_file, "--solvers", "slim", "--set", "speed=3", "--out", tmp_path / "race")
+    assert result.status == 2 and len(result.err.splitlines()) == 1
+    assert "There is no parameter 'speed'" in result.err
+
+
 def test_a_given_map_takes_part(cli, dome, dome_file, tmp_path):
     flat = dome.vertices[:, :2] * [1.1, 0.95]
     write_map(tmp_path / "other.obj", dome, dome, flat, "parameterize")

@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
+    from workbench.cli.entries import Entry
     from workbench.cli.preparation import PreparedProblem
     from workbench.engine.contestants import Contestant, SolverChoice
     from workbench.engine.race import Race
@@ -37,7 +38,9 @@ Solvers from one start on one problem, each with factors and a clock of its own.
 FILES = """\
 DIR then holds table.csv, table.json (a row a contestant), history.csv (a row an iteration), curves.svg, .pdf and .png
 (energy, relative error to the best, gradient norm, inverted simplices), sheet.png and .pdf (maps at chosen iterations).
-With several meshes the curves and sheets stand in a folder a mesh. Exit status 1: a contestant failed; all is written."""
+With several meshes the curves and sheets stand in a folder a mesh. What does not fit a mesh, or a mesh that cannot be used,
+is REFUSED in the table, and the rest goes on. Exit status 1: a contestant failed or was refused; all is written. Exit status
+2: nothing could run, and nothing is written. Ctrl+C ends all runs; what they came to is written."""
 
 
 def add_parser(name: str, commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -81,40 +84,40 @@ def run(options: argparse.Namespace) -> int:
     from workbench.io.atomic import check_folder
 
     check_folder(options.out)
-    from workbench.cli.preparation import prepare_problem
-    from workbench.core.registry import registry
+    from workbench.cli.entries import complaints, enter_all
     from workbench.engine.contestants import PRESETS, check_labels, parse_choices
 
     preset = PRESETS[options.preset] if options.preset else None
     choices = (*(preset.choices if preset else ()), *parse_choices(options.solvers or ""))
-    if len(choices) + len(options.given) < 1:
+    if not choices and not options.given:
         raise WorkbenchError("There is nobody to compare; name solvers with --solvers A,B,... or a --preset.")
     if options.given and len(options.files) > 1:
         raise WorkbenchError("A map that is --given belongs to one mesh; compare one FILE at a time with it.")
     given = dict(_label_and_file(text) for text in options.given)
     check_labels([*(choice.label for choice in choices), *(_label_and_file(text)[0] for text in options.given)])
     options.distortion = options.distortion or (preset.distortion if preset else "") or "symmetric-dirichlet"
-    methods = tuple(registry().solver(choice.solver) for choice in choices)
     tell = teller(options.quiet)
-    prepared, contestants = [], []
-    for file in options.files:
-        problem, settings = prepare_problem(options, file, methods)
-        prepared.append(problem)
-        contestants.append(_contestants(problem, choices, settings, given, options.seed))
+    entries = enter_all(options, choices, given)
+    complained = [_complain(sentence) for entry in entries for sentence in complaints(entry)]
     with InterruptFlag() as interrupt:
-        races = []
-        for problem, entries in zip(prepared, contestants, strict=True):
-            for note in problem.opened.notes:
-                tell(note)
-            races.append(_race(problem, entries, options, interrupt, tell))
-        found = _write(prepared, races, options)
+        races = {}
+        for entry in entries:
+            if entry.prepared is not None and entry.contestants:
+                for note in entry.prepared.opened.notes:
+                    tell(note)
+                races[entry.name] = _race(entry.prepared, entry.contestants, options, interrupt, tell)
+        found = _write(entries, races, choices, options)
     if not options.quiet:
         print(_text(found))
         print(f"in {options.out}")
     failures = [row for row in found if _is_failure(row["status"])]
-    for row in failures:
-        print(f"workbench: {row['mesh']}, {row['contestant']}: {row['message']}", file=sys.stderr)
-    return RUN_FAILED if failures else 0
+    complained += [_complain(f"{row['mesh']}, {row['contestant']}: {row['message']}") for row in failures]
+    return RUN_FAILED if complained else 0
+
+
+def _complain(sentence: str) -> str:
+    print(f"workbench: {sentence}", file=sys.stderr, flush=True)
+    return sentence
 
 
 def _label_and_file(text: str) -> tuple[str, str]:
@@ -122,26 +125,9 @@ def _label_and_file(text: str) -> tuple[str, str]:
     return (label, file) if equals and not os.path.exists(text) else (Path(text).name, text)
 
 
-def _contestants(
-    prepared: PreparedProblem, choices: tuple[SolverChoice, ...], settings: dict[str, str], given: dict[str, str], seed: int
-) -> list[Contestant]:
-    from workbench.cli.preparation import configured
-    from workbench.core.registry import registry
-    from workbench.engine.contestants import Contestant
-    from workbench.io.opening import map_from_file
-
-    found = []
-    for choice in choices:
-        method = registry().solver(choice.solver)
-        method.configured(dict(choice.values))  # refuses names that it has not
-        found.append(Contestant(choice.label, configured(method, {**settings, **choice.values}, seed)))
-    mesh, kind = prepared.opened.mesh, prepared.opened.kind
-    return found + [Contestant(label, None, map_from_file(file, mesh, kind)) for label, file in given.items()]
-
-
 def _race(
     prepared: PreparedProblem,
-    contestants: list[Contestant],
+    contestants: Sequence[Contestant],
     options: argparse.Namespace,
     interrupt: InterruptFlag,
     tell: Callable[[str], None],
@@ -172,22 +158,28 @@ def _race(
     return race
 
 
-def _write(prepared: list[PreparedProblem], races: list[Race], options: argparse.Namespace) -> list[dict[str, Any]]:
+def _write(
+    entries: list[Entry], races: dict[str, Race], choices: tuple[SolverChoice, ...], options: argparse.Namespace
+) -> list[dict[str, Any]]:
+    from workbench.cli.entries import refused_rows
     from workbench.engine.contestants import file_name
     from workbench.engine.race_table import history_rows, race_table
     from workbench.io.atomic import filling, write_text
     from workbench.io.write import csv_text
 
-    names = _mesh_names(options.files)
-    tables = [race_table(race, name) for name, race in zip(names, races, strict=True)]
-    found = [row for rows in tables for row in rows]
+    tables = {name: race_table(race, name) for name, race in races.items()}
+    columns = list(next(iter(tables.values()))[0])
+    solvers = {choice.label: choice.solver for choice in choices}
+    for entry in entries:
+        tables[entry.name] = tables.get(entry.name, []) + refused_rows(entry, solvers, columns)
+    found = [row for entry in entries for row in tables[entry.name]]
     with filling(options.out) as folder:
         write_text(folder / "table.csv", csv_text(found))
-        write_text(folder / "table.json", json_text(_report(prepared, tables, options)))
-        histories = (row for name, race in zip(names, races, strict=True) for row in history_rows(race, name))
+        write_text(folder / "table.json", json_text(_report(entries, tables, options)))
+        histories = (row for name, race in races.items() for row in history_rows(race, name))
         write_text(folder / "history.csv", csv_text(histories))
-        for name, race in zip(names, races, strict=True) if options.figures else ():
-            place = folder / file_name(name) if len(names) > 1 else folder
+        for name, race in races.items() if options.figures else ():
+            place = folder / file_name(name) if len(entries) > 1 else folder
             place.mkdir(exist_ok=True)
             _draw(race, name, options.rows, place)
     return found
@@ -206,21 +198,11 @@ def _draw(race: Race, name: str, rows: tuple[int, ...], folder: Path) -> None:
             save_figure(figure, folder / f"{stem}{ending}")
 
 
-def _mesh_names(files: list[str]) -> list[str]:
-    """A name for each file: its last part without the ending, numbered where that is not enough."""
-    names: list[str] = []
-    for file in files:
-        stem = Path(file.removeprefix("sample:")).stem
-        taken = sum(name == stem or name.startswith(f"{stem}-") for name in names)
-        names.append(f"{stem}-{taken + 1}" if taken else stem)
-    return names
-
-
-def _report(prepared: list[PreparedProblem], tables: list[list[dict[str, Any]]], options: argparse.Namespace) -> dict[str, Any]:
+def _report(entries: list[Entry], tables: dict[str, list[dict[str, Any]]], options: argparse.Namespace) -> dict[str, Any]:
     from workbench.core.threads import thread_count
     from workbench.engine.doctor import versions
 
-    distortion = prepared[0].problem.distortion
+    distortion = next(entry.prepared.problem.distortion for entry in entries if entry.prepared is not None)
     return {
         "schema": SCHEMA,
         "distortion": {"id": distortion.id, "formula": distortion.formula, "parameters": distortion.parameter_values},
@@ -231,23 +213,25 @@ def _report(prepared: list[PreparedProblem], tables: list[list[dict[str, Any]]],
             "time_limit": options.time_limit,
         },
         "turns": options.turns,
-        "races": [
-            {
-                "input": {
-                    "path": item.path,
-                    "sha256": item.opened.file.sha256,
-                    "kind": item.opened.kind,
-                    "vertices": item.opened.mesh.vertex_count,
-                    "simplices": item.opened.mesh.simplex_count,
-                },
-                "init": item.initializer,
-                "contestants": rows,
-            }
-            for item, rows in zip(prepared, tables, strict=True)
-        ],
+        "races": [_race_report(entry, tables[entry.name]) for entry in entries],
         "threads": thread_count(),
         "versions": versions(),
     }
+
+
+def _race_report(entry: Entry, rows: list[dict[str, Any]]) -> dict[str, Any]:
+    prepared = entry.prepared
+    if prepared is None:
+        return {"input": {"path": entry.path}, "refused": entry.reason, "contestants": rows}
+    opened = prepared.opened
+    source = {
+        "path": prepared.path,
+        "sha256": opened.file.sha256,
+        "kind": opened.kind,
+        "vertices": opened.mesh.vertex_count,
+        "simplices": opened.mesh.simplex_count,
+    }
+    return {"input": source, "init": prepared.initializer, "contestants": rows}
 
 
 COLUMNS = {

@@ -25,6 +25,7 @@ from workbench.cli import (
     signatures,
     solve,
 )
+from workbench.cli.output import full_sentence
 from workbench.core.errors import WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
@@ -66,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return int(options.run(options))
     except WorkbenchError as error:
-        return _refuse(_full_sentence(error))
+        return _refuse(full_sentence(error))
     except KeyboardInterrupt:
         return _refuse("Interrupted before there was a result; nothing was written.")
     except BrokenPipeError:  # the reader of a pipe has gone, as after `| head`
@@ -108,16 +109,6 @@ def _as_formula(text: str) -> str:
 def _names_a_source(text: str) -> bool:
     path = PurePath(text)
     return text.startswith("sample:") or bool(path.suffix) or len(path.parts) > 1 or os.path.exists(text)
-
-
-def _full_sentence(error: WorkbenchError) -> str:
-    """The sentence, with the place in a formula, or the `--fix` that helps, where it does not name them itself."""
-    position = getattr(error, "position", 0)
-    if position:
-        return f"{error.sentence} (at character {position + 1} of the formula)"
-    if error.fixes and "--fix" not in error.sentence:
-        return f"{error.sentence} Add --fix {','.join(error.fixes)}."
-    return error.sentence
 
 
 def _refuse(sentence: str) -> int:

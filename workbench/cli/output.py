@@ -35,6 +35,16 @@ def json_text(value: Any) -> str:
     return json.dumps(plain(value), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
+def full_sentence(error: WorkbenchError) -> str:
+    """The sentence, with the place in a formula, or the `--fix` that helps, where it does not name them itself."""
+    position = getattr(error, "position", 0)
+    if position:
+        return f"{error.sentence} (at character {position + 1} of the formula)"
+    if error.fixes and "--fix" not in error.sentence:
+        return f"{error.sentence} Add --fix {','.join(error.fixes)}."
+    return error.sentence
+
+
 def check_places(paths: Iterable[str]) -> None:
     """Raise `WorkbenchError` unless each file can be written: better now than after the work is done."""
     seen: set[Path] = set()

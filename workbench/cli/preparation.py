@@ -59,11 +59,12 @@ def prepare(options: argparse.Namespace) -> Prepared:
 
 
 def prepare_problem(
-    options: argparse.Namespace, file: str, methods: Sequence[type[Solver]]
+    options: argparse.Namespace, file: str, methods: Sequence[type[Solver]], unfit: dict[type[Solver], str] | None = None
 ) -> tuple[PreparedProblem, dict[str, str]]:
     """The problem of a mesh file for these solvers, with its start, and the settings that are left for the solvers.
 
-    Raises `WorkbenchError` for whatever does not fit.
+    Raises `WorkbenchError` for whatever does not fit; solvers that do not are put into `unfit` instead, where it is given,
+    each with the sentence that says why.
     """
     if options.linear_solver:
         check_back_end(options.linear_solver)
@@ -73,16 +74,24 @@ def prepare_problem(
         opened = open_source(file, kind=options.map, fixes=options.fixes, tets=options.tets)
     if options.repair not in ("auto", "none"):
         raise WorkbenchError(f"There is no repair {options.repair!r}; there are: auto, none.")
-    for method in methods:
-        if opened.kind not in method.kinds:
-            raise WorkbenchError(f"{method.label} does not solve {opened.kind} maps; choose another solver.")
-    initializer, start_file = _initializer(options.init, opened, methods)
+    refused = {method: sentence for method in methods if (sentence := _mismatch(method, opened.kind))}
+    if refused and unfit is None:
+        raise WorkbenchError(next(iter(refused.values())))
+    fitting = [method for method in methods if method not in refused]
+    initializer, start_file = _initializer(options.init, opened, fitting)
     starter = registry().initializer(initializer)
     for_distortion, for_solvers, for_start = assign(options.settings, options.distortion, (methods, (starter,)))
     distortion = Distortion.resolve(options.distortion, for_distortion)
-    for method in methods:
-        method.check_distortion(distortion)
+    for method in fitting:
         configured(method, for_solvers, options.seed)
+        try:
+            method.check_distortion(distortion)
+        except WorkbenchError as error:
+            if unfit is None:
+                raise
+            refused[method] = error.sentence
+    if unfit is not None:
+        unfit.update(refused)
     problem = Problem.create(
         opened.mesh,
         opened.kind,
@@ -99,6 +108,11 @@ def prepare_problem(
         path=str(file), opened=opened, problem=problem, initializer=initializer, start=start, seconds=seconds
     )
     return given, for_solvers
+
+
+def _mismatch(method: type[Solver], kind: str) -> str:
+    """Why a solver cannot take part, by the kind of map; empty where it can."""
+    return "" if kind in method.kinds else f"{method.label} does not solve {kind} maps; choose another solver."
 
 
 def configured(method: type[Solver], values: Mapping[str, Any], seed: int) -> Solver:
