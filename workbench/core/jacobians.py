@@ -10,7 +10,10 @@ import numpy as np
 from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
-from workbench.core.singular_values import determinant_3x3, signed_svd_2x2, signed_svd_3x3
+from workbench.core.singular_value_lanes import load_jacobians, values_of_block
+from workbench.core.singular_values import determinant_3x3, signed_svd_2x2
+from workbench.core.tape import LANES
+from workbench.core.tetrahedron_edges import target_edges_3d
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,25 +146,6 @@ def _determinants_2d(x, simplices, inverse_rest, out):  # type: ignore[no-untype
         out[e] = area * (inverse_rest[e, 0, 0] * inverse_rest[e, 1, 1] - inverse_rest[e, 0, 1] * inverse_rest[e, 1, 0])
 
 
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def target_edges_3d(x, simplices, e, D):  # type: ignore[no-untyped-def]
-    """Write the target edges of tetrahedron e as columns of D (3, 3); return their determinant."""
-    o = simplices[e, 0]
-    for j in range(3):
-        v = simplices[e, j + 1]
-        for c in range(3):
-            D[c, j] = x[v, c] - x[o, c]
-    return determinant_3x3(D)
-
-
-@numba.njit(nogil=True, cache=True, error_model="numpy", inline="always")
-def jacobian_3d(D, inverse_rest, e, J):  # type: ignore[no-untyped-def]
-    """Write the Jacobian of tetrahedron e, whose target edges are the columns of D, into J (3, 3)."""
-    for i in range(3):
-        for j in range(3):
-            J[i, j] = D[i, 0] * inverse_rest[e, 0, j] + D[i, 1] * inverse_rest[e, 1, j] + D[i, 2] * inverse_rest[e, 2, j]
-
-
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def _determinants_3d(x, simplices, inverse_rest, out):  # type: ignore[no-untyped-def]
     D = np.empty((3, 3))
@@ -171,12 +155,13 @@ def _determinants_3d(x, simplices, inverse_rest, out):  # type: ignore[no-untype
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def _singular_values_3d(x, simplices, inverse_rest, out):  # type: ignore[no-untyped-def]
-    D, J = np.empty((3, 3)), np.empty((3, 3))
-    U, V, s = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
-    for e in range(simplices.shape[0]):
-        det = target_edges_3d(x, simplices, e, D) * determinant_3x3(inverse_rest[e])
-        jacobian_3d(D, inverse_rest, e, J)
-        signed_svd_3x3(J, U, s, V)
-        out[e, 0], out[e, 1] = s[0], s[1]
-        # One sign everywhere: that of the determinant as the line search sees it.
-        out[e, 2] = abs(s[2]) if det > 0.0 else -abs(s[2])
+    columns, turns = np.zeros(9 * LANES), np.zeros(11 * LANES)
+    units, dets, values = np.empty(LANES), np.empty(LANES), np.empty((3, LANES))
+    for block in range(0, simplices.shape[0], LANES):
+        count = min(LANES, simplices.shape[0] - block)
+        load_jacobians(x, simplices, inverse_rest, block, count, columns, units, dets)
+        values_of_block(columns, turns, units, count, values)
+        for lane in range(count):
+            out[block + lane, 0], out[block + lane, 1] = values[0, lane], values[1, lane]
+            # One sign everywhere: that of the determinant as the line search sees it.
+            out[block + lane, 2] = values[2, lane] if dets[lane] > 0.0 else -values[2, lane]

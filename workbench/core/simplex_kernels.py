@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numba
 
-from workbench.core.jacobians import target_edges_3d
 from workbench.core.singular_values import determinant_3x3, signed_svd_2x2, signed_svd_3x3
+from workbench.core.tetrahedron_edges import target_edges_3d
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")

@@ -11,9 +11,9 @@ import math
 import numba
 import numpy as np
 
-from workbench.core.jacobians import jacobian_3d, target_edges_3d
 from workbench.core.singular_values import determinant_3x3, frames_from_columns, orthogonalise, unit_of
 from workbench.core.tape import LANES
+from workbench.core.tetrahedron_edges import jacobian_3d, target_edges_3d
 
 ROW = 3 * LANES
 """Numbers in a row of a block: entry (i, j) of the matrix in a lane stands at i ROW + j LANES + lane."""
