@@ -79,6 +79,22 @@ def test_it_goes_with_every_map(carrying: MainWindow, ring: tuple[Path, Mesh], q
     assert f"max {own.max():.4g}" in carrying.carried.bar.legend.numbers.text()
 
 
+def test_it_is_coloured_by_any_of_its_measures(carrying: MainWindow, ring: tuple[Path, Mesh], qtbot: QtBot) -> None:
+    bend(carrying, 0.4)
+    qtbot.waitUntil(lambda: carrying.document.positions.min() < -0.1)
+    table = simplex_table(ring[1], carry(ring[1], solid_mesh()).at(carrying.document.positions))
+    bar = carrying.carried.bar
+    columns = {"det": "det", "sigma1": "sigma_1", "sigman": "sigma_2"}
+    for row in range(bar.chooser.count()):
+        bar.chooser.setCurrentIndex(row)
+        values = table[columns.get(bar.chooser.currentData(), bar.chooser.currentData())]
+        np.testing.assert_allclose(carrying.carried._layers[1]._values, values, rtol=1e-6)
+        low, high = carrying.carried.range.low, carrying.carried.range.high
+        assert np.mean((values >= low - 1e-9) & (values <= high)) > 0.98, "the range is that of the quantity"
+        assert bar.legend.bar.range is carrying.carried.range
+    bar.chooser.setCurrentIndex(0)
+
+
 def test_it_is_seen_through_the_solid_which_is_whole_again_without_it(carrying: MainWindow, qtbot: QtBot) -> None:
     view = carrying.source.view
     through = pixels(view)

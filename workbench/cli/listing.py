@@ -114,6 +114,7 @@ def maps() -> list[Entry]:
         _entry("maps", "plane", "Plane figure to the plane", "(43), n = 2", ("plane",)),
         _entry("maps", "parameterize", "Surface in space to the plane", "(44)", ("parameterize",)),
         _entry("maps", "volume", "Tetrahedral mesh to space", "(43), n = 3", ("volume",)),
+        _entry("maps", "carried-surface", "Surface carried by a volume map", "Fig. 8", ("volume",), option="solve --carry"),
     ]
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QToolButton, QVBoxLayout, QWidget
 
 from workbench.app.colour_legend import ColourLegend
 from workbench.app.colour_range import ColourRange
+from workbench.app.quantities import Quantity
 from workbench.app.status_line import ElidedLabel
 from workbench.app.theme import Theme
 
@@ -18,9 +21,10 @@ class CarriedBar(QWidget):
     """Name of the surface, a slider for the solid, a button to let the surface go; its colour bar below."""
 
     opacity_chosen = Signal(float)
+    quantity_chosen = Signal(str)
     dismissed = Signal()
 
-    def __init__(self, colour_range: ColourRange, parent: QWidget | None = None) -> None:
+    def __init__(self, quantities: Sequence[Quantity], colour_range: ColourRange, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
@@ -34,6 +38,13 @@ class CarriedBar(QWidget):
         self.caption = ElidedLabel("", self)
         self.caption.setObjectName("citation")
         row.addWidget(self.caption, 1)
+        self.chooser = QComboBox(self)
+        for quantity in quantities:
+            self.chooser.addItem(quantity.title, quantity.id)
+            self.chooser.setItemData(self.chooser.count() - 1, quantity.formula, Qt.ItemDataRole.ToolTipRole)
+        self.chooser.setToolTip("What the colours of the carried surface stand for")
+        self.chooser.currentIndexChanged.connect(lambda _: self.quantity_chosen.emit(self.chooser.currentData()))
+        row.addWidget(self.chooser)
         row.addWidget(QLabel("Solid", self))
         self.opacity = QSlider(Qt.Orientation.Horizontal, self)
         self.opacity.setToolTip("How much of the solid is to be seen round the surface.")

@@ -11,9 +11,9 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.background import Background
 from workbench.app.carrying.carried_bar import FIRST_OPACITY, CarriedBar
 from workbench.app.carrying.carried_layer import CarriedLayer
+from workbench.app.carrying.carried_quantities import CARRIED_QUANTITIES
 from workbench.app.colour_range import ColourRange
 from workbench.app.document import Document
-from workbench.app.quantities import Quantity
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 from workbench.core.carried_surface import CarriedSurface, carry
@@ -21,11 +21,6 @@ from workbench.core.mesh import Mesh
 from workbench.engine.carrying_kernels import compile_elsewhere
 from workbench.io.opening import read_source
 from workbench.io.write import write_surface
-
-OWN_DISTORTION = Quantity(
-    "symmetric-dirichlet", "Symmetric Dirichlet of the carried surface", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0, least_span=0.01
-)
-"""Of the map of the surface alone, n = 2: it has a range of its own beside that of the solid."""
 
 
 class CarriedView(QObject):
@@ -43,9 +38,12 @@ class CarriedView(QObject):
         super().__init__(parent)
         self._document = document
         self._panes = tuple(panes)
-        self.range = ColourRange(OWN_DISTORTION)
-        self.range.setParent(self)
-        self.bar = CarriedBar(self.range, bar_below)
+        self._ranges = {quantity.id: ColourRange(quantity) for quantity in CARRIED_QUANTITIES}
+        self.range = next(iter(self._ranges.values()))
+        for colour_range in self._ranges.values():
+            colour_range.setParent(self)
+            colour_range.changed.connect(self._show_range)
+        self.bar = CarriedBar(CARRIED_QUANTITIES, self.range, bar_below)
         bar_below.add_below(self.bar)
         self.surface: CarriedSurface | None = None
         self._layers: list[CarriedLayer] = []
@@ -53,7 +51,7 @@ class CarriedView(QObject):
         self.opacity = FIRST_OPACITY
         self.bar.opacity_chosen.connect(self.set_opacity)
         self.bar.dismissed.connect(self.let_go)
-        self.range.changed.connect(self._show_range)
+        self.bar.quantity_chosen.connect(self.show_quantity)
         document.opened.connect(self.let_go)
         document.snapshot_taken.connect(self.show_map)
 
@@ -114,7 +112,8 @@ class CarriedView(QObject):
         self.surface = found
         surface = found.surface
         self._layers = [CarriedLayer(pane.view, surface.simplices, surface.vertex_count) for pane in self._panes]
-        self.range.forget()
+        for colour_range in self._ranges.values():
+            colour_range.forget()
         self.bar.caption.setText(f"{Path(surface.name).stem}, {surface.simplex_count} triangles")
         self.bar.show()
         self.set_opacity(self.opacity)
@@ -137,10 +136,16 @@ class CarriedView(QObject):
             layer.show(vertices, values)
         self._refresh()
 
+    def show_quantity(self, id: str) -> None:
+        """Colour the surface by another of its measures."""
+        self.range = self._ranges[id]
+        self.show_map()
+        self._show_range()
+
     def values(self, moved: Floats) -> Floats:
-        """The surface's own distortion (m,) where its vertices are at `moved` (k, 3)."""
+        """What is shown of the surface's own map (m,) where its vertices are at `moved` (k, 3)."""
         assert self.surface is not None
-        measure = OWN_DISTORTION.measure
+        measure = self.range.quantity.measure
         return self.surface.measures(moved, (measure,))[measure.id]
 
     def _show_range(self) -> None:
