@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from workbench.app.signatures.signature_window import SignatureWindow
 
 MESH_FILTERS = (
-    "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
+    "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.meshb *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
 )
 
 
