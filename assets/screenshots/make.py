@@ -1,4 +1,4 @@
-"""The pictures of the README: the window on its first sample in a lively pose, and the inspector on a typed formula.
+"""The pictures of the README: the window on its first sample in a lively pose, the inspector on a formula, a solid cut open.
 
     xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
 """
@@ -15,16 +15,21 @@ from workbench.app.main import make_application
 
 application = make_application()
 
+import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 from PySide6.QtTest import QTest  # noqa: E402
 
+from workbench.app.anchor_set import AnchorSet  # noqa: E402
 from workbench.app.main_window import MainWindow  # noqa: E402
 from workbench.app.settings import Settings  # noqa: E402
 from workbench.app.theme import ThemeSwitch  # noqa: E402
+from workbench.core.samples import make_sample  # noqa: E402
 
 SIZE = (1500, 920)
 STEPS = 40
 FORMULA = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
+TURN = np.pi
+"""Angle between the ends of the solid bar."""
 POSE = ((0.06, 0.27), (-0.14, 0.10), (0.09, -0.01), (0.0, 0.0), (0.0, -0.26))
 """Moves of the sample's anchors, sorted from left to right, in diameters: a dancer."""
 
@@ -56,9 +61,10 @@ def main(theme: str = "light") -> None:
         QTest.qWait(700)
         window.commands.save_screenshot(window, str(here / "window.png"))
         show_inspector(window, here / "inspector.png")
+        show_solid(window, Path(folder) / "bar.npz", here / "volume.png")
         window.close()
-    smaller(here / "window.png")
-    smaller(here / "inspector.png")
+    for name in ("window", "inspector", "volume"):
+        smaller(here / f"{name}.png")
 
 
 def show_inspector(window: MainWindow, path: Path) -> None:
@@ -82,6 +88,34 @@ def show_inspector(window: MainWindow, path: Path) -> None:
     for number, page in enumerate(pages):
         sheet.paste(page, (number * page.width, 0))
     sheet.save(path)
+
+
+def show_solid(window: MainWindow, case: Path, path: Path) -> None:
+    """A solid bar whose ends are turned against each other, cut open."""
+    document = window.document
+    bar = make_sample("bar-3d", 20_000)
+    along, middle = bar.vertices[:, 0], bar.vertices.mean(axis=0)
+    ends = np.flatnonzero((along == along.min()) | (along == along.max()))
+    np.savez(case, V=bar.vertices, S=bar.simplices, X0=bar.vertices, anchors=ends, targets=bar.vertices[ends])
+    window.inspector.toggle.trigger()
+    document.choose(distortion="symmetric-dirichlet", distortion_parameters={})
+    window.open(str(case))
+    until(lambda: document.kind == "volume" and len(document.anchors) > 0 and not document.is_at_work)
+    document.run()
+    sides = np.where(along[ends] > middle[0], 0.5, -0.5)
+    for step in range(1, STEPS + 1):
+        angle = TURN * step / STEPS * sides
+        up, left = (bar.vertices[ends] - middle)[:, 1:].T
+        turned = np.c_[up * np.cos(angle) - left * np.sin(angle), up * np.sin(angle) + left * np.cos(angle)] + middle[1:]
+        document.set_anchors(AnchorSet.to(ends, np.c_[along[ends], turned]))
+        until(lambda: document.snapshot.anchor_serial == document.anchor_serial and document.snapshot.phase == "finished")
+    window.set_target_style("symmetric-dirichlet")
+    window.look.cut_along("x")
+    window.volume.choose(is_exact=True, place=0.62)
+    window.commands.fit()
+    window.turns.draw_all()
+    QTest.qWait(1000)
+    window.commands.save_screenshot(window, str(path))
 
 
 def smaller(path: Path) -> None:

@@ -34,8 +34,18 @@ SHORTCUTS = """
 <tr><td>Ctrl+I</td><td>inspector: formula, properties and plots of the distortion</td></tr>
 <tr><td>Ctrl+Shift+R</td><td>race solvers against each other</td></tr>
 <tr><td>Ctrl+D</td><td>take the next step apart</td></tr>
+<tr><td>Ctrl+J</td><td>is the map one-to-one? where not?</td></tr>
+<tr><td>F3, Shift+F3</td><td>next and previous place to blame</td></tr>
 <tr><td>Ctrl+B</td><td>pin the boundary</td></tr>
 <tr><td>Ctrl+.</td><td>stop what hangs</td></tr>
+</table>
+<h3>Solids</h3>
+<table cellspacing="6">
+<tr><td>Cut</td><td>a plane of the source (⋯: of the target); drag its handle; ⇄ keeps the other side</td></tr>
+<tr><td>Section</td><td>cuts tetrahedra through, or else leaves them whole</td></tr>
+<tr><td>Peel</td><td>takes away the tetrahedra of least distortion; ⋯ chooses of which kind</td></tr>
+<tr><td>Marked</td><td>draws only what is marked, as by a drag across the histogram</td></tr>
+<tr><td>Spread</td><td>pulls tetrahedra apart</td></tr>
 </table>
 <h3>Race</h3>
 <table cellspacing="6">
