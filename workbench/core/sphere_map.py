@@ -1,4 +1,4 @@
-"""A closed surface of genus 0 onto the unit sphere, without a flipped triangle."""
+"""A closed surface of genus 0 onto the unit sphere."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from workbench.core.predicates import orientation_3d
 _CAP = 2.0
 """Each half sphere is solved out to this radius in the plane, the equator being 1: the two overlap."""
 _HALVES = 8
+_LEAST_HELD = 0.02
+"""Part of the area that has to be held, and to be free; else the halves are none, and the alternation would collapse."""
 _SMALLEST_WEIGHT = 0.05
 """Weights of edges are at least this part of their median: negative ones could fold the map."""
 _ROUNDS = 400
@@ -27,6 +29,7 @@ def spherical_map(surface: Mesh) -> Floats:
     stereographic projection, which does too little near that triangle. So the two half spheres are solved in turn, each in
     the stereographic plane of its own pole with the other half held (Schwarz's alternation), then the map is centred by the
     conformal motions of the sphere.
+    Arms many times as long as wide shrink to specks, whose triangles may come out flipped.
 
     Parameters
     ----------
@@ -39,17 +42,35 @@ def spherical_map(surface: Mesh) -> Floats:
     Raises `WorkbenchError` where a linear system is singular.
     Source: Haker et al. 2000, Gu & Yau 2003 and Choi, Lam & Lui 2015, for the way by the plane.
     """
+    return without_flips(surface.simplices, _conformal(surface))
+
+
+def _conformal(surface: Mesh) -> Floats:
+    """The centred harmonic map as the alternation gives it: the one of its rounds with the fewest flipped triangles."""
     weights = _positive(cotangent_weights(surface))
     matrix = laplacian(surface.simplices, weights, surface.vertex_count)
     areas = _vertex_areas(surface)
     plane = _layout(surface, matrix, areas)
-    for half in range(_HALVES):
+    best, fewest = _upright(surface.simplices, _centred(_wrapped(plane), areas))
+    for _ in range(_HALVES):
+        held_area = float(areas[np.abs(plane) >= _CAP].sum())
+        if not _LEAST_HELD < held_area < 1.0 - _LEAST_HELD:
+            break
         plane = _solved_half(matrix, plane, surface.elimination_order)
-        plane = _balanced(1.0 / np.conj(_off_origin(plane)) if half < _HALVES - 1 else plane, areas)
-    sphere = _centred(_wrapped(plane), areas)
-    if _oriented_volume(surface.simplices, sphere) < 0.0:
-        sphere = sphere * np.array([-1.0, 1.0, 1.0])
-    return without_flips(surface.simplices, sphere)
+        sphere, flips = _upright(surface.simplices, _centred(_wrapped(plane), areas))
+        if flips <= fewest:
+            best, fewest = sphere, flips
+        plane = _balanced(1.0 / np.conj(_off_origin(plane)), areas)
+    return best
+
+
+def _upright(triangles: Integers, sphere: Floats) -> tuple[Floats, int]:
+    """The map, mirrored where most of its triangles are flipped, and how many are then."""
+    flips = len(flipped_triangles(triangles, sphere))
+    if 2 * flips <= len(triangles):
+        return sphere, flips
+    mirrored = sphere * np.array([-1.0, 1.0, 1.0])
+    return mirrored, len(flipped_triangles(triangles, mirrored))
 
 
 def flipped_triangles(triangles: Integers, sphere: Floats) -> Integers:
@@ -121,8 +142,6 @@ def _off_origin(plane: Floats) -> Floats:
 
 def _solved_half(matrix: sparse.csr_matrix, plane: Floats, order: Integers) -> Floats:
     held = np.flatnonzero(np.abs(plane) >= _CAP)
-    if len(held) < 3:
-        held = np.argsort(np.abs(plane), kind="stable")[-3:]
     places = np.stack([plane[held].real, plane[held].imag], axis=1)
     return solve_with_fixed(matrix, held, places, order) @ np.array([1.0, 1j])
 
@@ -147,8 +166,3 @@ def _centred(sphere: Floats, areas: Floats) -> Floats:
         sphere = (1.0 - shift @ shift) * apart / np.maximum(squares, 1e-300)[:, None] - shift
         sphere /= np.linalg.norm(sphere, axis=1, keepdims=True)
     return sphere
-
-
-def _oriented_volume(triangles: Integers, sphere: Floats) -> float:
-    a, b, c = (sphere[triangles[:, i]] for i in range(3))
-    return float(np.einsum("ij,ij->", a, np.cross(b, c)))
