@@ -143,6 +143,19 @@ def test_indices_counted_from_the_wrong_end_are_named(tmp_path: Path, cube: Mesh
         read_mesh(tmp_path / "zero.mesh")
 
 
+def test_what_cannot_be_read_is_called_by_its_name(tmp_path: Path, cube: Mesh) -> None:
+    path = write(tmp_path / "binary.vtu", cube.vertices, [("tetra", cube.simplices)])
+    path.write_bytes(path.read_bytes().replace(b"vtkZLibDataCompressor", b"vtkLZ4DataCompressor"))
+    with pytest.raises(MeshError, match="LZ4"):
+        read_mesh(path)
+    corners = "".join(f"{x} {y} {z} 0\n" for x, y, z in np.random.default_rng(0).random((10, 3)).tolist())
+    (tmp_path / "quadratic.mesh").write_text(
+        f"MeshVersionFormatted 2\nDimension 3\nVertices\n10\n{corners}TetrahedraP2\n1\n1 2 3 4 5 6 7 8 9 10 0\nEnd\n"
+    )
+    with pytest.raises(MeshError, match="higher order"):
+        read_mesh(tmp_path / "quadratic.mesh")
+
+
 def test_an_obj_of_tetrahedra_offers_to_be_read_as_such(tmp_path: Path, cube: Mesh, dome: Mesh) -> None:
     path = tmp_path / "cube.obj"
     write_mesh(path, cube)

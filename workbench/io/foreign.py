@@ -37,6 +37,11 @@ FORMATS = {
 
 FLAT_CELLS = ("triangle", "quad", "polygon")
 IGNORED_CELLS = ("vertex", "line", "line3")
+NOT_READ = {
+    b"vtkLZ4DataCompressor": "it is compressed by LZ4; save it with ZLib or without compression",
+    b"TetrahedraP2": "its elements are of higher order, and maps are linear on each simplex; export it with order 1",
+}
+"""Marks of what meshio does not know, and what to do."""
 ENTITIES = re.compile(rb"\$Entities\b.*?\$EndEntities\s*", re.DOTALL)
 """The part of a Gmsh file that says which groups its parts are in."""
 
@@ -59,7 +64,9 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
             plain.write_bytes(ENTITIES.sub(b"", data, count=1))
             content = _read(path, str(plain), module, len(data))
     if content is None:
-        raise MeshError(f"{path}: it cannot be read as {name}; it is damaged, cut short, or of another format.")
+        reasons = (words for mark, words in NOT_READ.items() if mark in data)
+        reason = next(reasons, "it is damaged, cut short, or of another format")
+        raise MeshError(f"{path}: it cannot be read as {name}; {reason}.")
     points, blocks, regions, source = content
     if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
         raise MeshError(f"{path}: there are no vertices in it.")
