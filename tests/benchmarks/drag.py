@@ -3,6 +3,8 @@
     python -m tests.benchmarks.drag [TRIANGLES ...]
     python -m tests.benchmarks.drag --bar [TETRAHEDRA ...]      a corner of a solid bar, then a whole end as one group
 
+Without arguments it does both.
+
 Prints, for each size: maps published, largest count of inverted simplices in any of them, percentiles of the time from an
 event to the first map that holds it or a newer one, and how far the anchor lags behind the hand (median, in diameters);
 then whether the anchor arrives after release and what the solver's status is.
@@ -19,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.benchmarks.drag_hands import ScriptedHand, corner_hand, end_hand
+from tests.benchmarks._drag_hands import ScriptedHand, corner_hand, end_hand
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.measure import Measure
 from workbench.core.samples import make_sample
@@ -134,10 +136,14 @@ def _await(news: threading.Condition, holds: object, seconds: float) -> None:
 
 def main(arguments: list[str]) -> None:
     """Print a table, one line a size and hand."""
-    solid = "--bar" in arguments
-    sizes = [int(a) for a in arguments if a != "--bar"] or ([3000, 12_000] if solid else [2500, 25_000, 100_000])
-    hands: tuple[HandMaker, ...] = (corner_hand, end_hand) if solid else (corner_hand,)
-    sample = "bar-3d" if solid else "gingerbread"
+    sizes = [int(a) for a in arguments if a != "--bar"]
+    if "--bar" not in arguments:
+        _table("gingerbread", sizes or [2500, 25_000, 100_000], (corner_hand,))
+    if "--bar" in arguments or not arguments:
+        _table("bar-3d", sizes or [3000, 12_000], (corner_hand, end_hand))
+
+
+def _table(sample: str, sizes: list[int], hands: tuple[HandMaker, ...]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         for size in sizes:
             mesh = make_sample(sample, size)

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.benchmarks.drag_hands import wild_path
+from tests.benchmarks._drag_hands import wild_path
 from workbench.app.main import make_application
 from workbench.core.samples import make_sample
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.benchmarks.drag_hands import end_hand
+from tests.benchmarks._drag_hands import end_hand
 from tests.engine.test_worker import Desk, desk  # noqa: F401  the fixture
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.samples import make_sample
