@@ -6,17 +6,17 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
 from workbench.core.arrays import Floats, Integers
-from workbench.core.cholmod_library import load_cvxopt
+from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_matrix
 from workbench.core.errors import WorkbenchError
+from workbench.core.pattern import elimination_order
 
 _REFINEMENTS = 2
 
 
 class DefiniteFactor:
-    """Cholesky factor of a symmetric positive definite matrix: CHOLMOD, or SuperLU where cvxopt is missing.
+    """Cholesky factor of a symmetric positive definite matrix.
 
     The matrix is scaled to a unit diagonal first, and every solution is refined: rows may differ very much in size.
 
@@ -36,47 +36,23 @@ class DefiniteFactor:
         self._scale = 1.0 / np.sqrt(diagonal)
         scaling = sparse.diags(self._scale)
         self._matrix = sparse.csc_matrix(scaling @ matrix @ scaling)
+        lower = sparse.tril(self._matrix, format="csc")
+        lower.sort_indices()
+        if order is None:
+            order = elimination_order(sparse.csr_matrix(self._matrix - sparse.diags(self._matrix.diagonal())))
+        starts, rows = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
+        self._factor = CholeskyFactor(analyse_matrix(starts, rows, 1, np.asarray(order, dtype=np.int64)))
         try:
-            cvxopt = load_cvxopt()
-        except ImportError:
-            self._factorise_superlu()
-        else:
-            self._factorise_cholmod(cvxopt, order)
-
-    def _factorise_cholmod(self, cvxopt: Any, order: Integers | None) -> None:
-        lower = sparse.tril(self._matrix, format="coo")
-        rows, columns = (cvxopt.matrix(np.ascontiguousarray(part, dtype=np.int64)) for part in (lower.row, lower.col))
-        values = cvxopt.matrix(np.ascontiguousarray(lower.data))
-        matrix = cvxopt.spmatrix(values, rows, columns, self._matrix.shape)
-        known = () if order is None else (cvxopt.matrix(np.ascontiguousarray(order, dtype=np.int64)),)
-        factor = cvxopt.cholmod.symbolic(matrix, *known)
-        try:
-            cvxopt.cholmod.numeric(matrix, factor)
-        except ArithmeticError:
+            self._factor.factorise(lower.data)
+        except NotPositiveDefiniteError:
             raise WorkbenchError(_SINGULAR) from None
-
-        def solve(rhs: Floats) -> Floats:
-            unknown = cvxopt.matrix(np.asfortranarray(rhs))
-            cvxopt.cholmod.solve(factor, unknown)
-            return np.array(unknown).reshape(rhs.shape)
-
-        self._solve = solve
-
-    def _factorise_superlu(self) -> None:
-        try:
-            factor = linalg.splu(
-                self._matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-            )
-        except RuntimeError:
-            raise WorkbenchError(_SINGULAR) from None
-        self._solve = factor.solve
 
     def solve(self, rhs: Floats) -> Floats:
         """(N, k) right-hand sides -> (N, k). Raises `WorkbenchError` where the result is not finite."""
         scaled = rhs * self._scale[:, None]
-        unknown = self._solve(scaled)
+        unknown = self._factor.solve(scaled)
         for _ in range(_REFINEMENTS):
-            unknown = unknown + self._solve(scaled - self._matrix @ unknown)
+            unknown = unknown + self._factor.solve(scaled - self._matrix @ unknown)
         if not np.isfinite(unknown).all():
             raise WorkbenchError(_SINGULAR)
         result: Floats = unknown * self._scale[:, None]

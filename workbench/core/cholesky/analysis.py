@@ -48,17 +48,28 @@ class SymbolicFactor:
 
 def analyse_pattern(pattern: HessianPattern) -> SymbolicFactor:
     """Analysis of a pattern whose vertices are in a fill-reducing order already."""
-    d = pattern.dimension
-    starts, neighbours = _block_graph(pattern.column_starts, pattern.rows, d)
+    return analyse_matrix(pattern.column_starts, pattern.rows, pattern.dimension, np.arange(len(pattern.order)))
+
+
+def analyse_matrix(column_starts: Integers, matrix_rows: Integers, d: int, eliminated: Integers) -> SymbolicFactor:
+    """Analysis of a symmetric matrix of d x d blocks.
+
+    Parameters
+    ----------
+    column_starts : (dn + 1,) int64, matrix_rows : (nnz,) int64
+        its lower triangle by columns, rows ascending, all of the diagonal and of every block there
+    eliminated : (n,) int64      blocks in a fill-reducing order
+    """
+    starts, neighbours = _block_graph(column_starts, matrix_rows, d)
     n = len(starts) - 1
-    natural = np.arange(n)
-    parent = elimination_tree(starts, neighbours, natural, natural)
-    weight = column_counts(starts, neighbours, natural, natural, parent)
-    order = postorder(parent, weight)
-    place = np.empty(n, dtype=np.int64)
-    place[order] = natural
-    parent = np.append(place, n)[parent[order]]
-    counts = weight[order]
+    turn = _inverse(eliminated)
+    tree = elimination_tree(starts, neighbours, eliminated, turn)
+    weight = column_counts(starts, neighbours, eliminated, turn, tree)
+    relabelled = postorder(tree, weight)
+    parent = np.append(_inverse(relabelled), n)[tree[relabelled]]
+    counts = weight[relabelled]
+    order = eliminated[relabelled]
+    place = _inverse(order)
 
     first = supernode_starts(parent, counts, d)
     count = len(first) - 1
@@ -77,12 +88,10 @@ def analyse_pattern(pattern: HessianPattern) -> SymbolicFactor:
     children_starts = np.searchsorted(parents[children], np.arange(count + 1))
 
     coordinate_order = (d * order[:, None] + np.arange(d)).reshape(-1)
-    coordinate_place = np.empty_like(coordinate_order)
-    coordinate_place[coordinate_order] = np.arange(len(coordinate_order))
     expanded = (d * rows[:, None] + np.arange(d)).reshape(-1)
     expanded_in_parent = np.where(in_parent[:, None] < 0, 0, d * in_parent[:, None] + np.arange(d)).reshape(-1)
     entries, targets, entry_starts = _entry_targets(
-        pattern.column_starts, pattern.rows, coordinate_place, d * first, d * row_starts, expanded, panel_starts
+        column_starts, matrix_rows, _inverse(coordinate_order), d * first, d * row_starts, expanded, panel_starts
     )
     layout = Layout(
         first=d * first,
@@ -99,6 +108,12 @@ def analyse_pattern(pattern: HessianPattern) -> SymbolicFactor:
         scratch_starts=scratch_starts,
     )
     return SymbolicFactor(coordinate_order, layout, workspace_size, subtrees, top)
+
+
+def _inverse(order: Integers) -> Integers:
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return place
 
 
 @numba.njit(nogil=True, cache=True)
