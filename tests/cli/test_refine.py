@@ -167,6 +167,7 @@ REFUSED = [
     (["no-such-file.obj", "--out", "o.obj"], "no-such-file.obj"),
     (["sample:bar-3d", "--scheme", "loop", "--out", "o.npz"], "linear"),
     (["CASE3D", "--out", "o.obj"], ".npz"),
+    (["CASE3D", "--out", "o.msh"], "no map beside"),
 ]
 
 

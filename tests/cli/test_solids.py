@@ -10,6 +10,7 @@ import pytest
 
 from tests.cli.conftest import Outcome, strict_json
 from workbench.core.mesh import Mesh
+from workbench.core.refine import refine
 from workbench.io.read import read_mesh
 
 
@@ -89,6 +90,17 @@ def test_linear_refinement_changes_no_number_of_a_solid(cli, bent: Path, tmp_pat
             assert after["measures"][id][name] == pytest.approx(numbers[name], rel=1e-11), (id, name)
     assert after["injective"] == before["injective"]
     assert read_mesh(fine).mesh.simplex_count == 8 * read_mesh(bent).mesh.simplex_count
+
+
+@pytest.mark.parametrize("ending", ["obj", "npz", "vtu", "mesh", "msh"])
+def test_a_refined_solid_comes_back(cli, tmp_path: Path, cube: Mesh, ending: str) -> None:
+    np.savez(tmp_path / "cube.npz", V=cube.vertices, S=cube.simplices)
+    out = tmp_path / f"fine.{ending}"
+    assert cli("refine", tmp_path / "cube.npz", "--scheme", "linear", "--out", out).status == 0
+    fine = read_mesh(out, tets=True).mesh
+    expected = refine(cube, None, "linear", 1).mesh
+    np.testing.assert_array_equal(fine.vertices, expected.vertices)
+    np.testing.assert_array_equal(fine.simplices, expected.simplices)
 
 
 def test_an_inverted_tetrahedron_is_counted_and_told(cli, cube: Mesh, tmp_path: Path) -> None:

@@ -26,7 +26,9 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
     add("target", nargs="?", metavar="TARGET", help="file of the map, where FILE holds none or another")
     add("--scheme", choices=SCHEME_IDS, default="linear", help="default: linear, which keeps every energy")
     add("--levels", type=count, default=1, metavar="K", help="how often (default: 1)")
-    add("--out", required=True, metavar="OUT", help="the refined mesh with its map: .obj, .npz or .vtu")
+    add(
+        "--out", required=True, metavar="OUT", help="the refined mesh with its map: .obj, .npz, .vtu; a mesh alone: .mesh, .msh"
+    )
     add_source_options(parser)
     add(
         "--measure", dest="measures", action="append", metavar="ID|FORMULA",

@@ -22,8 +22,9 @@ from workbench.io.reading_fixes import split_fixes
 from workbench.io.start_file import fit_dimension, map_from_file
 from workbench.io.write import write_case, write_map, write_mesh
 
-REFINED_ENDINGS = (".obj", ".npz", ".vtu")
+REFINED_ENDINGS = (".obj", ".npz", ".vtu", ".mesh", ".msh")
 """Endings of the files that a refined mesh is written to."""
+MESH_ALONE = (".mesh", ".msh")
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,13 +108,16 @@ def check_refined_place(path: str | os.PathLike[str], given: Refinable) -> None:
         raise WorkbenchError(f"{path}: refinements are written as {', '.join(REFINED_ENDINGS)}; choose one of these endings.")
     if ending == ".obj" and given.positions is not None and given.positions.shape[1] != 2:
         raise WorkbenchError(f"{path}: OBJ holds no source beside a map into space; write .npz or .vtu.")
+    if ending in MESH_ALONE and given.has_map:
+        raise WorkbenchError(f"{path}: this format holds no map beside the mesh; write .npz or .vtu.")
 
 
 def write_refined(path: str | os.PathLike[str], given: Refinable, refined: Refined) -> tuple[str, ...]:
     """Writes a refined source with its map; the file is whole or not there.
 
     OBJ: the source as `v`, a map to the plane as `vt`, with its seams. npz: `V S`, the map as `X`, the start as `X0`, the
-    anchors, whose vertices keep their numbers. VTU: the map, or the mesh where there is none.
+    anchors, whose vertices keep their numbers. VTU: the source and the map. MEDIT and Gmsh: the mesh of a file
+    that holds no map.
 
     Parameters
     ----------
@@ -137,7 +141,7 @@ def write_refined(path: str | os.PathLike[str], given: Refinable, refined: Refin
     if positions is None and mesh.texture is not None:
         mesh, positions, cut = _texture_as_map(mesh)
         notes += cut
-    if ending == ".vtu":
+    if ending in (".vtu", *MESH_ALONE):
         write_map(path, mesh, mesh, mesh.vertices if positions is None else positions, given.kind)
         return notes
     arrays = {"V": mesh.vertices, "S": mesh.simplices}
