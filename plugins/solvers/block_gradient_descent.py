@@ -48,6 +48,7 @@ class BlockGradientDescent(DescentSolver):
     label = "Block gradient descent"
     short = "BGD"
     citation = "Hormann & Greiner 2000 [HG00]; Fu, Liu, Guo 2015 [FLG15]; section 4.3"
+    takes_fences = False  # a simplex on the brink holds its own vertices only
 
     growth: float = parameter(2.0, "factor on a vertex's last step for its next first trial", minimum=1.0, maximum=100.0)
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)

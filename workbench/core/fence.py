@@ -16,8 +16,8 @@ from workbench.core.solver import Interrupt, Solver
 from workbench.core.stages import begin, kept_stage, staged_step
 from workbench.core.state import State
 
-SHORT = 0.5
-"""A step that the step bound makes shorter than this part of a Newton step puts up the fence."""
+SHORT = 0.1
+"""A step that the step bound makes shorter than this part of its direction puts up the fence."""
 FIRST = 0.1
 """Energy of the fence to begin with, as part of that of the map."""
 LEAST = 1e-9

@@ -28,7 +28,6 @@ class NewtonSolver(DescentSolver):
     """
 
     second_order: ClassVar[bool] = True
-    takes_fences: ClassVar[bool] = True
 
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)
     reach: float = parameter(4.0, "longest step tried, in Newton steps; 1: never a longer one", minimum=1.0, maximum=10.0)

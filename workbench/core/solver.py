@@ -45,7 +45,7 @@ class Solver(Method, ABC):
     """Id of the start that it wishes for; empty: the default of the kind of map."""
     second_order: ClassVar[bool] = False
     """Whether full steps are Newton's, so that one with a small decrease has come where nothing is left to gain."""
-    takes_fences: ClassVar[bool] = False
+    takes_fences: ClassVar[bool] = True
     """Whether steps that the step bound shortens are taken along a fence (see `workbench.core.fence`)."""
     distortions: ClassVar[tuple[str, ...]] = ()
     """Ids of the distortions that it can minimise; empty: all."""
