@@ -138,6 +138,17 @@ def test_what_is_factored_once_is_factored_once(id: str, factorisations: int) ->
     assert counts["gradient"] >= 12
 
 
+def test_sweeps_over_single_vertices_are_charged_what_they_look_at() -> None:
+    """Each of the three corners of a triangle asks for its gradient, and for its energy before and after."""
+    problem, start = problem_of("bumpy-disc")
+    result = run(registry().solver("block-gradient-descent")(), problem, start, iterations=6, tolerance=0.0)
+    assert result.state.iteration == 6
+    counts = problem.workspace.all_counts()
+    assert counts["gradient"] >= 6 * 3
+    assert counts["energy"] >= 6 * 2 * 3
+    assert counts["energy"] <= 3 * counts["trials"] + 6 * 3 + 1
+
+
 @pytest.mark.parametrize("id", ["bcqn"])
 def test_the_characteristic_gradient_stops_where_asked(id: str) -> None:
     problem, start = problem_of("bumpy-disc")
