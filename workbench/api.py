@@ -56,7 +56,7 @@ from workbench.core.refine import Refined, refine
 from workbench.core.rigid_start import rigid_map
 from workbench.core.run import RunResult, run
 from workbench.core.samples import make_sample
-from workbench.core.solid_boundary import boundary_images, solid_boundary
+from workbench.core.solid_boundary import boundary_images, relaxed_inside, solid_boundary
 from workbench.core.solver import ROUNDING, Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
@@ -184,6 +184,7 @@ __all__ = [
     "parameter",
     "radial_stretch",
     "refine",
+    "relaxed_inside",
     "reweighted_laplacian",
     "rigid_map",
     "run",

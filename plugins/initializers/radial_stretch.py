@@ -3,14 +3,14 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from workbench.api import Floats, Initializer, StartRequest, parameter, radial_stretch
+from workbench.api import Floats, Initializer, StartRequest, parameter, radial_stretch, relaxed_inside
 
 
 @dataclass(frozen=True)
 class RadialStretch(Initializer):
-    """Rays from the centre stretched until the boundary lies on a ball: never an inverted one where the mesh is fine enough.
+    """Rays from the centre stretched until the boundary lies on a ball: star-shaped solids come out upright.
 
-    That holds for solids that are star-shaped; where others are folded, tetrahedra come out inverted.
+    Others fold; tetrahedra that stay inverted are counted as those of any start.
     """
 
     id = "radial-stretch"
@@ -20,7 +20,9 @@ class RadialStretch(Initializer):
 
     shape: Literal["ball", "cube"] = parameter("ball", "What the boundary goes to; it has the volume of the source in the end.")
     boundary: Literal["rays", "harmonic"] = parameter("rays", "How it gets there: along rays, or by its own harmonic map.")
+    repair: bool = parameter(True, "Move inner vertices of inverted tetrahedra to the middle of their neighbours.")
 
     def start(self, request: StartRequest) -> Floats:
         """Positions (n, 3); raises `MeshError` where the boundary is not like a sphere."""
-        return radial_stretch(request.mesh, self.shape, self.boundary)
+        positions = radial_stretch(request.mesh, self.shape, self.boundary)
+        return relaxed_inside(request.mesh, positions) if self.repair else positions

@@ -11,6 +11,7 @@ from workbench.api import (
     dirichlet_matrix,
     harmonic_extension,
     parameter,
+    relaxed_inside,
     solid_boundary,
     solve_with_fixed,
 )
@@ -32,6 +33,7 @@ class VolumetricHarmonic(Initializer):
         "ball", "What the boundary goes to; it has the volume of the source in the end."
     )
     boundary: Literal["rays", "harmonic"] = parameter("harmonic", "How it gets there: by its own harmonic map, or along rays.")
+    repair: bool = parameter(True, "Move inner vertices of inverted tetrahedra to the middle of their neighbours.")
 
     def start(self, request: StartRequest) -> Floats:
         """Positions (n, 3); raises `MeshError` where the boundary is not like a sphere."""
@@ -40,4 +42,5 @@ class VolumetricHarmonic(Initializer):
             return harmonic_extension(mesh, mesh.topology.boundary_vertices)
         boundary = solid_boundary(mesh)
         images = boundary_images(mesh, boundary, self.shape, self.boundary)
-        return solve_with_fixed(dirichlet_matrix(mesh), boundary.vertices, images, mesh.elimination_order)
+        positions = solve_with_fixed(dirichlet_matrix(mesh), boundary.vertices, images, mesh.elimination_order)
+        return relaxed_inside(mesh, positions) if self.repair else positions

@@ -10,7 +10,9 @@ from scipy.optimize import linprog
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
+from workbench.core.jacobians import build_elements, determinants
 from workbench.core.mesh import Mesh
+from workbench.core.relaxation import relaxed
 from workbench.core.sphere_map import spherical_map, without_flips
 from workbench.core.topology import signed_contents
 
@@ -18,6 +20,7 @@ SolidShape = Literal["ball", "cube"]
 SphereMap = Literal["rays", "harmonic"]
 
 _BULGE = 0.15
+_ROUNDS = 60
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +90,16 @@ def images_on_sphere(boundary: SolidBoundary, by: SphereMap) -> Floats:
     offsets = boundary.surface.vertices - boundary.centre
     lengths = np.linalg.norm(offsets, axis=1, keepdims=True)
     return without_flips(boundary.surface.simplices, offsets / np.maximum(lengths, 1e-300))
+
+
+def relaxed_inside(mesh: Mesh, positions: Floats) -> Floats:
+    """The map (n, 3) with inner vertices near inverted tetrahedra at the middle of their neighbours, as far as that helps."""
+    elements = build_elements(mesh)
+
+    def inverted(places: Floats) -> Integers:
+        return np.flatnonzero(~(determinants(elements, np.ascontiguousarray(places)) > 0))
+
+    return relaxed(mesh.simplices, positions, inverted, held=mesh.topology.boundary_vertices, rounds=_ROUNDS)
 
 
 def gauge(points: Floats, shape: SolidShape, bulge: float = 0.0) -> Floats:

@@ -10,6 +10,7 @@ from workbench.core.convex_map import cotangent_weights, laplacian
 from workbench.core.definite_solve import solve_with_fixed
 from workbench.core.mesh import Mesh
 from workbench.core.predicates import orientation_3d
+from workbench.core.relaxation import relaxed
 
 _CAP = 2.0
 """Each half sphere is solved out to this radius in the plane, the equator being 1: the two overlap."""
@@ -18,7 +19,6 @@ _LEAST_HELD = 0.02
 """Part of the area that has to be held, and to be free; else the halves are none, and the alternation would collapse."""
 _SMALLEST_WEIGHT = 0.05
 """Weights of edges are at least this part of their median: negative ones could fold the map."""
-_ROUNDS = 400
 _CENTRED = 1e-9
 
 
@@ -80,30 +80,16 @@ def flipped_triangles(triangles: Integers, sphere: Floats) -> Integers:
 
 
 def without_flips(triangles: Integers, sphere: Floats) -> Floats:
-    """The map with vertices near flipped triangles moved to the middle of their neighbours until none is left.
+    """The map with vertices near flipped triangles moved to the middle of their neighbours, as far as that helps."""
 
-    Where `_ROUNDS` do not suffice, the map with the fewest flipped triangles.
-    """
-    flipped = flipped_triangles(triangles, sphere)
-    if not len(flipped):
-        return sphere
-    size = len(sphere)
-    tails, heads = triangles[:, [0, 1, 2]].ravel(), triangles[:, [1, 2, 0]].ravel()
-    neighbours = sparse.coo_matrix((np.ones(len(tails)), (tails, heads)), shape=(size, size)).tocsr()
-    best, fewest = sphere, len(flipped)
-    moves = np.zeros(size, dtype=bool)
-    for step in range(_ROUNDS):
-        moves[triangles[flipped]] = True
-        if step % 4 == 3:  # the neighbourhood grows until there is room
-            moves |= neighbours @ moves.astype(np.float64) > 0.0
-        mean = neighbours @ sphere
-        sphere = np.where(moves[:, None], mean / np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-300), sphere)
-        flipped = flipped_triangles(triangles, sphere)
-        if len(flipped) < fewest:
-            best, fewest = sphere, len(flipped)
-        if not fewest:
-            break
-    return best
+    def flipped(places: Floats) -> Integers:
+        return flipped_triangles(triangles, places)
+
+    def on_sphere(means: Floats) -> Floats:
+        result: Floats = means / np.maximum(np.linalg.norm(means, axis=1, keepdims=True), 1e-300)
+        return result
+
+    return relaxed(triangles, sphere, flipped, on_sphere)
 
 
 def _positive(weights: Floats) -> Floats:
