@@ -19,7 +19,8 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Floats
 from workbench.engine.messages import SetAnchors
 
-PHASES = {"running": "running", "finished": "done", "failed": "failed", "given": "given map"}
+FAILED = "#d6332a"
+"""Colour of words about what went wrong, on light and dark alike."""
 
 
 def colour_of(index: int) -> QColor:
@@ -132,8 +133,8 @@ class ContestantPane(QWidget):
         self.view.refresh()
         self.view.canvas.draw_now()
 
-    def show_record(self, record: RaceRecord) -> None:
-        """Name, numbers and how it stands."""
+    def show_record(self, record: RaceRecord, is_running: bool) -> None:
+        """Name, numbers and how it stands; whether the race runs now."""
         frame = record.frame
         self.swatch.setPixmap(swatch_of(self.shown))
         notes = {"flipped": self.is_flipped, "A, with which the others are compared": self.is_reference}
@@ -145,8 +146,9 @@ class ContestantPane(QWidget):
             self.phase.setText("")
             self.numbers.setText("")
             return
-        self.phase.setText(PHASES.get(frame.phase, frame.phase) if frame.phase != "finished" else _ending(frame.status))
+        self.phase.setText(_ending(frame.status) if frame.phase == "finished" else _phase(frame.phase, is_running))
         self.phase.setToolTip(frame.message)
+        self.phase.setStyleSheet(f"color: {FAILED};" if frame.phase == "failed" else "")
         if frame.phase == "failed":
             self.numbers.setText(frame.message)
             return
@@ -161,6 +163,10 @@ class ContestantPane(QWidget):
 
 
 _NOWHERE = np.empty((0, 3))
+
+
+def _phase(phase: str, is_running: bool) -> str:
+    return "given map" if phase == "given" else "waiting" if phase == "running" and not is_running else phase
 
 
 def _ending(status: str) -> str:

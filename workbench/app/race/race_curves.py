@@ -94,6 +94,7 @@ class RaceCurves(QWidget):
         self._apply_log()
 
     def set_theme(self, theme: Theme) -> None:
+        self._theme, self._error_title = theme, ""
         self.graphics.setBackground(theme.view)
         self._marks.set_theme(theme)
         for plot, cursor, (_, title) in zip(self._plots, self._cursors, PLOTS, strict=True):
@@ -151,9 +152,25 @@ class RaceCurves(QWidget):
                 self._set(self.curves[name, index], name, x, y, is_given=records[index].entrant.map is not None)
                 self._set(self.markers[name, index], name, x[marks], y[marks])
             self._show_range(plot, name, abscissas)
+        self._say_why_empty()
         self._show_cursor()
         # the lines know no logarithms
         self._marks.show([] if self.is_logarithmic["x"] else self._switches(), self.axis)
+
+    def _say_why_empty(self) -> None:
+        """The title of the errors, with the reason where there is none to draw."""
+        errors = self.values("error")
+        known = [values[np.isfinite(values)] for values in errors]
+        reason = ""
+        if not any(len(values) for values in known):
+            reason = ": nobody's anchors are in place yet"
+        elif self.is_logarithmic["y"] and not any((values > 0).any() for values in known):
+            reason = ": 0 for everyone so far"
+        title = f"{dict(PLOTS)['error']}{reason}"
+        if title != self._error_title:
+            self._error_title = title
+            row = [name for name, _ in PLOTS].index("error")
+            self._plots[row].setTitle(title, color=self._theme.text, size="9pt")
 
     def _switches(self) -> list[Switch]:
         """Whatever was switched, and by whom, in the order of the axis."""

@@ -83,6 +83,7 @@ class RaceModel(QObject):
         self.records = [RaceRecord(entrant, set_up.problem, set_up.anchors) for entrant in set_up.entrants]
         self.seek, self.is_running, self.is_over, self.is_ready = Seek(), False, False, False
         self._wants_to_run = run
+        self.progress.emit("Bringing everyone to the start …")
         self.bridge.post(self.set_up)
         self.phase_changed.emit()
 

@@ -30,7 +30,7 @@ from PySide6.QtWidgets import (
 
 from workbench.app.background import Background
 from workbench.app.panels.method_form import MethodForm
-from workbench.app.race.contestant_pane import swatch_of
+from workbench.app.race.contestant_pane import FAILED, swatch_of
 from workbench.app.race.draft import MOST, Draft, free_label, misfit, what_is_wrong
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
@@ -81,6 +81,7 @@ class SetUpDialog(QDialog):
         self._registry = registry
         self.drafts = drafts
         self._readers: list[Background] = []
+        self._refusals: list[str] = []
         self._make_list()
         self._make_details()
         self._make_terms()
@@ -240,6 +241,7 @@ class SetUpDialog(QDialog):
 
     def add_maps(self, paths: list[str]) -> None:
         """Read maps on a thread; each becomes a contestant."""
+        self._refusals.clear()
         for path in paths:
             reader = Background(lambda p=path: _read_map(p, self._ground), self)  # type: ignore[misc]
             reader.finished.connect(lambda positions, p=path: self._add_map(p, positions))
@@ -250,9 +252,13 @@ class SetUpDialog(QDialog):
     def _add_map(self, path: str, positions: Floats) -> None:
         self._append(Draft(Path(path).stem, map=positions, origin=path))
         self._fill(len(self.drafts) - 1)
+        self.error.setText("\n".join(filter(None, (*self._refusals, self.error.text()))))
 
     def _show_failure(self, error: Exception) -> None:
-        self.error.setText(error.sentence if isinstance(error, WorkbenchError) else f"{type(error).__name__}: {error}")
+        """Below what other files have already been refused for."""
+        sentence = error.sentence if isinstance(error, WorkbenchError) else f"{type(error).__name__}: {error}"
+        self._refusals.append(sentence)
+        self.error.setText("\n".join(self._refusals))
 
     # ------------------------------------------------------------------------------------------ showing
 
@@ -268,7 +274,7 @@ class SetUpDialog(QDialog):
             item = QListWidgetItem(icon, draft.label)
             reason = misfit(self._registry.solvers[draft.solver], self._ground.kind, distortion) if draft.solver else ""
             if reason:
-                item.setForeground(QColor("#d6332a"))
+                item.setForeground(QColor(FAILED))
             item.setToolTip(reason or draft.origin)
             self.list.addItem(item)
         self.list.blockSignals(False)

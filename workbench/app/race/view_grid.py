@@ -18,6 +18,7 @@ from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView, box_corners
+from workbench.core.arrays import Floats
 
 GAP = 3
 HEADER_LINES = 2.8
@@ -49,6 +50,7 @@ class ViewGrid(QWidget):
         model.started.connect(self._show_mesh)
         model.map_changed.connect(self._contestant_changed)
         model.told.connect(self._show_record)
+        model.phase_changed.connect(self._show_phase)
         colours.restyled.connect(self.restyle)
         self.make_panes()
 
@@ -71,7 +73,7 @@ class ViewGrid(QWidget):
             self.panes.append(pane)
         for index, pane in enumerate(self.panes):
             pane.shown, pane.is_flipped = index, False
-            pane.show_record(self._model.records[index])
+            self._tell(pane)
         self._place()
 
     def set_theme(self, theme: Theme) -> None:
@@ -129,7 +131,15 @@ class ViewGrid(QWidget):
         record = self._model.records[index]
         for pane in self.panes:
             if pane.shown == index and (record.frame is None or record.frame.phase != "running"):
-                pane.show_record(record)
+                self._tell(pane)
+
+    def _show_phase(self) -> None:
+        if len(self.panes) == len(self._model.records):  # else other contestants have no panes yet
+            for pane in self.panes:
+                self._tell(pane)
+
+    def _tell(self, pane: ContestantPane) -> None:
+        pane.show_record(self._model.records[pane.shown], self._model.is_running)
 
     def _draw(self, place: int) -> float:
         if place >= len(self.panes):
@@ -137,8 +147,8 @@ class ViewGrid(QWidget):
         pane = self.panes[place]
         record = self._model.records[pane.shown]
         pane.show_map(record, self._colours.values_of(pane.shown))
-        pane.show_record(record)
-        if self._wants_fit and (self._has_left(pane) or self._have_shrunk()):
+        self._tell(pane)
+        if self._wants_fit and self._fits_badly():
             self.fit()
         return float(pane.view.canvas.seconds)
 
@@ -150,19 +160,24 @@ class ViewGrid(QWidget):
         for place, pane in enumerate(self.panes):
             if pane.shown != places[place] or pane.is_flipped != (places[place] != place):
                 pane.shown, pane.is_flipped = places[place], places[place] != place
-                pane.show_record(self._model.records[pane.shown])
+                self._tell(pane)
                 self._restyle(place)
 
     # ------------------------------------------------------------------------------------------ camera
 
     def fit(self) -> None:
         """Show all of all maps, at one scale."""
-        points = [box_corners(p.geometry_shown.points) for p in self.panes if p.geometry_shown is not None]
-        if not points:
-            return
-        pane = self.panes[0]
-        self._set_cameras(pane.view, pane.view.camera.fitted(np.concatenate(points), pane.view.size_in_pixels))
+        points = self._outermost()
+        if len(points):
+            view = self.panes[0].view
+            self._set_cameras(view, view.camera.fitted(points, view.size_in_pixels))
         self._wants_fit = True
+
+    def _outermost(self) -> Floats:
+        """Points (k, 3) of the display between which all maps and their anchors lie."""
+        shown = [pane for pane in self.panes if pane.geometry_shown is not None]
+        boxes = [box_corners(pane.geometry_shown.points) for pane in shown]
+        return np.concatenate([np.empty((0, 3)), *boxes, *(pane.view.overlay.scene.anchor_points for pane in shown)])
 
     def _link(self, view: MeshView) -> None:
         """One view was moved: the others follow."""
@@ -177,19 +192,11 @@ class ViewGrid(QWidget):
                 pane.view.set_camera(camera)
         self._is_linking = False
 
-    def _has_left(self, pane: ContestantPane) -> bool:
-        assert pane.geometry_shown is not None
-        width, height = pane.view.size_in_pixels
-        corners = pane.view.project(box_corners(pane.geometry_shown.points))
-        (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
-        return bool(left < 0 or top < 0 or right > width or bottom > height)
-
-    def _have_shrunk(self) -> bool:
-        """Whether all maps together have become small in views whose camera nobody has touched."""
+    def _fits_badly(self) -> bool:
+        """Whether something has left the views, or all has become small in them."""
         view = self.panes[0].view
-        boxes = [box_corners(pane.geometry_shown.points) for pane in self.panes if pane.geometry_shown is not None]
-        parts = np.ptp(view.project(np.concatenate(boxes)), axis=0) / view.size_in_pixels
-        return bool(parts.max() < SMALL)
+        places = view.project(self._outermost()) / view.size_in_pixels
+        return bool(places.min() < 0.0 or places.max() > 1.0 or np.ptp(places, axis=0).max() < SMALL)
 
     # ------------------------------------------------------------------------------------------ places
 
