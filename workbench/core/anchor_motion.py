@@ -85,6 +85,20 @@ def _turned(current: Floats, targets: Floats) -> Floats:
     return result
 
 
+def twist_between(current: Floats, targets: Floats) -> Floats:
+    """(6,) rotation vector and velocity whose exponential is the best rigid fit from `current` (j, d) to `targets` (j, d).
+
+    Too few points to tell a rotation have none.
+    """
+    shift = _in_space(targets - current).mean(axis=0)
+    if len(current) <= max(1, current.shape[1] - 1):
+        return np.concatenate([np.zeros(3), shift])
+    vector = _best_rotation(current, targets).as_rotvec()
+    centre = _in_space(current).mean(axis=0)
+    translation = centre + shift - Rotation.from_rotvec(vector).apply(centre)
+    return np.concatenate([vector, np.linalg.solve(_screw_matrix(vector), translation)])
+
+
 def _best_rotation(current: Floats, targets: Floats) -> Rotation:
     """Rotation of the least-squares rigid fit (Kabsch)."""
     p, q = _in_space(current - current.mean(axis=0)), _in_space(targets - targets.mean(axis=0))

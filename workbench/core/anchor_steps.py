@@ -22,6 +22,7 @@ from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.state import Approach, State
 from workbench.core.status import Status
+from workbench.core.turned_steps import turned_step
 
 if TYPE_CHECKING:
     from workbench.core.problem import Problem
@@ -58,6 +59,13 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
     hard = problem.anchors.hard_vertices
     system = problem.system
     approach = state.approach
+    if interrupt():
+        return replace(state, status=Status.INTERRUPTED)
+    displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
+    if renewal == "eager" and not approach.hold:
+        turned = turned_step(problem, state, displacement, _groups(problem))
+        if turned is not None:
+            return turned
     fresh = not system.serves(hard) or (approach.refresh and _renews(problem, renewal))
     if fresh:
         evaluation = problem.evaluate(x, 2)
@@ -78,7 +86,6 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
     if approach.hold:
         return _relax(problem, state, evaluation.energy, evaluation.gradient, interrupt)
 
-    displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
     residual = problem.constraints.residual(x) if problem.constraints is not None else None
     try:
         direction = system.solve(evaluation.gradient, displacement, problem.constraints, residual)
