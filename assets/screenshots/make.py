@@ -1,4 +1,4 @@
-"""The pictures of the README: the window on its first sample in a lively pose, the inspector on a formula, a solid cut open.
+"""The pictures of the README: the window on its first sample in a lively pose, the inspector on a formula, solids.
 
     xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
 """
@@ -27,6 +27,8 @@ from workbench.core.samples import make_sample  # noqa: E402
 
 SIZE = (1500, 920)
 STEPS = 40
+BEND = 1.9
+"""Angle by which the ends of the bar that carries a figure are bent towards each other."""
 FORMULA = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
 TURN = np.pi
 """Angle between the ends of the solid bar."""
@@ -62,8 +64,9 @@ def main(theme: str = "light") -> None:
         window.commands.save_screenshot(window, str(here / "window.png"))
         show_inspector(window, here / "inspector.png")
         show_solid(window, Path(folder) / "bar.npz", here / "volume.png")
+        show_carried(window, here / "carried.png")
         window.close()
-    for name in ("window", "inspector", "volume"):
+    for name in ("window", "inspector", "volume", "carried"):
         smaller(here / f"{name}.png")
 
 
@@ -116,6 +119,33 @@ def show_solid(window: MainWindow, case: Path, path: Path) -> None:
     window.turns.draw_all()
     QTest.qWait(1000)
     window.commands.save_screenshot(window, str(path))
+
+
+def show_carried(window: MainWindow, path: Path) -> None:
+    """A bent bar and the salamander in it, as in Fig. 8: source and target alone."""
+    document = window.document
+    window.open("sample:bar-3d")
+    until(lambda: window.document.session.source == "sample:bar-3d" and document.positions is not None)
+    bar = document.mesh
+    along, middle = bar.vertices[:, 0], bar.vertices.mean(axis=0)
+    ends = np.flatnonzero((along == along.min()) | (along == along.max()))
+    side = np.where(along[ends] > middle[0], 0.5, -0.5)
+    angle = BEND * side
+    up = bar.vertices[ends, 2] - middle[2]
+    radius = np.ptp(along) / BEND  # the middle line keeps its length
+    arm = radius - up
+    bent = np.c_[arm * np.sin(angle), bar.vertices[ends, 1], radius - arm * np.cos(angle)]
+    document.set_anchors(AnchorSet.to(ends, bent + [middle[0], 0.0, middle[2]]))
+    document.run()
+    window.carried.read("sample:salamander")
+    until(lambda: window.carried.surface is not None)
+    until(lambda: document.snapshot.anchor_serial == document.anchor_serial and document.snapshot.phase == "finished")
+    window.set_source_style("plain")
+    window.set_target_style("plain")
+    window.commands.fit()
+    window.turns.draw_all()
+    QTest.qWait(1000)
+    window.grab(window.centralWidget().geometry()).save(str(path))
 
 
 def smaller(path: Path) -> None:
