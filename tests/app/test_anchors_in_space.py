@@ -245,6 +245,26 @@ def test_a_side_of_a_figure_turns_in_the_plane(window: MainWindow) -> None:
     assert turned_angle(before, after, np.array([0.0, 0.0, 1.0])) == pytest.approx(angle, abs=0.05)
 
 
+def test_a_turn_that_the_map_cannot_follow_ends_where_it_is(
+    solid_window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    window = solid_window
+    axis, _ = facing_sides(window)[0]
+    vertices = anchor_face(window)
+    window.document.run()
+    start = window.document.anchors.targets_of(vertices)
+    monkeypatch.setattr("workbench.app.handling.anchor_desk.PATIENCE", 0.2)
+    monkeypatch.setattr(window.bridge._worker, "_blend", lambda command: None)  # the map stands still
+    window.desk.take_up()
+    with qtbot.waitSignal(window.desk.given_up) as ended:
+        window.desk.move(RigidMotion(turn=3.0 * np.eye(3)[axis], centre=start.mean(axis=0)), False)
+    assert not window.desk.is_turning and not window.document.is_held
+    assert math.radians(ended.args[0]) == pytest.approx(1.2)
+    angle = turned_angle(start, window.document.anchors.targets_of(vertices), np.eye(3)[axis])
+    assert angle == pytest.approx(1.2)
+    assert "cannot follow" in window.status.sentence.text()
+
+
 def test_a_turn_waits_for_the_map_and_counts_whole_turns() -> None:
     start = np.random.default_rng(0).normal(size=(12, 3))
     axis = np.array([0.0, 0.6, 0.8])

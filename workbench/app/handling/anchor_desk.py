@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+import time
+
 import numpy as np
-from PySide6.QtCore import QObject, QTimer
+from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.document import Document
@@ -13,10 +16,17 @@ from workbench.core.arrays import Integers
 
 TICK = 30
 """Milliseconds between two looks at a turn that waits for the map."""
+PATIENCE = 4.0
+"""Seconds without any progress after which a turn that nobody holds any longer ends where it is."""
+PROGRESS = 1e-3
+"""Part of a turn that counts as some."""
 
 
 class AnchorDesk(QObject):
     """Moves anchors of a document from where they were when they were taken up; the window's tools and menus ask for it."""
+
+    given_up = Signal(float)
+    """Degrees at which a turn has ended before its time"""
 
     def __init__(self, document: Document) -> None:
         super().__init__(document)
@@ -26,6 +36,7 @@ class AnchorDesk(QObject):
         self._wanted: RigidMotion | None = None
         self._pacer: TurnPacer | None = None
         self._is_held = False
+        self._best, self._best_at = 0.0, 0.0
         self._timer = QTimer(self)
         self._timer.setInterval(TICK)
         self._timer.timeout.connect(self._go_on)
@@ -52,6 +63,7 @@ class AnchorDesk(QObject):
         if motion.angle and self._document.is_at_work:
             if self._pacer is None:
                 self._pacer = TurnPacer(self._before.targets_of(self._vertices))
+            self._best, self._best_at = 0.0, time.monotonic()
             self._go_on(at)
         else:
             self._pacer = None
@@ -65,11 +77,16 @@ class AnchorDesk(QObject):
         part = self._pacer.part(self._wanted, self._document.positions[self._vertices])
         if not self._document.is_at_work:
             part = 1.0  # nothing follows, so that there is nothing to wait for
-        self._send(self._wanted.part(part), self._is_held or part < 1.0, at)
-        if part < 1.0:
+        if part > self._best + PROGRESS:
+            self._best, self._best_at = part, time.monotonic()
+        waits = part < 1.0 and (self._is_held or time.monotonic() - self._best_at < PATIENCE)
+        self._send(self._wanted.part(part), self._is_held or waits, at)
+        if waits:
             self._timer.start()
-        else:
-            self._timer.stop()
+            return
+        self._timer.stop()
+        if part < 1.0:
+            self.given_up.emit(math.degrees(part * self._wanted.angle))
 
     def _send(self, motion: RigidMotion, is_held: bool, at: float | None) -> None:
         anchors = self._document.anchors

@@ -34,6 +34,9 @@ class AnchorMenu(QObject):
             tool.menu_wanted.connect(lambda vertex, x, y, t=tool: self._open(t, vertex, (x, y)))
             tool.numbers_wanted.connect(self.ask_numbers)
             tool.nothing_chosen.connect(lambda: window.status.say("No vertex is in the box."))
+        self._desk.given_up.connect(
+            lambda degrees: window.status.say(f"The turn ends at {degrees:.0f}°: the map cannot follow any further.")
+        )
         self._document.opened.connect(self._forget)
         self._document.anchors_changed.connect(self._show_numbers)
         self._document.selection_changed.connect(self._show_numbers)
@@ -78,6 +81,10 @@ class AnchorMenu(QObject):
         """Anchor the whole face of a solid or a surface, or side of a figure, under a pixel, as one group."""
         patches = self._patches_now()
         vertices = patches.vertices_at(view, pixel)
+        mesh = self._document.mesh
+        if mesh is not None and len(vertices) == mesh.vertex_count:
+            self._window.status.say("No sharp edge bounds a face here: all would be anchored. Draw a box (B) instead.")
+            return
         self._desk.add_group(vertices)
         if len(vertices):
             self._window.status.say(f"{len(vertices)} anchors that move together: drag one, or the arrows and rings.")
