@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
@@ -106,6 +107,17 @@ def test_it_is_seen_through_the_solid_which_is_whole_again_without_it(carrying: 
     assert changed[0] > 0.05, "a veil lets the surface through"
     assert changed[1] < 0.001, "a solid hides it"
     assert not carrying.carried.bar.isVisible()
+
+
+def test_a_screenshot_of_a_view_is_opaque(carrying: MainWindow, tmp_path: Path) -> None:
+    """Pictures without the window behind them, too: background and what is seen through the solid."""
+    pixels(carrying.source.view)
+    carrying.commands.save_screenshot(carrying.source.view, str(tmp_path / "source.png"))
+    image = QImage(str(tmp_path / "source.png")).convertToFormat(QImage.Format.Format_RGBA8888)
+    read = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())[
+        :, 3 : 4 * image.width() : 4
+    ]
+    assert read.min() == 255
 
 
 def test_it_is_saved_where_it_is(carrying: MainWindow, ring: tuple[Path, Mesh], tmp_path: Path, qtbot: QtBot) -> None:

@@ -58,6 +58,7 @@ class MemoryCanvas(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.renderer = vtkRenderer()
+        self.renderer.SetBackgroundAlpha(1.0)  # else pictures of the view alone are seen through
         self.renderer.AddLight(_headlight())
         self._window: Any = vtkRenderWindow()
         self._window.SetOffScreenRendering(True)
