@@ -25,6 +25,7 @@ class ActionText:
 TEXTS: dict[str, ActionText] = {
     "open": ActionText("&Open…", ("Ctrl+O",), "Open a mesh or a case", "open"),
     "save": ActionText("&Save map…", ("Ctrl+S",), "Save the map as OBJ, npz or VTU", "save"),
+    "fill": ActionText("Fill &with tetrahedra…", (), "Make a solid of a closed surface"),
     "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
     "quit": ActionText("&Quit", ("Ctrl+Q",)),

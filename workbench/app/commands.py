@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
+from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT, SHORTCUTS
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
@@ -44,6 +45,7 @@ class Commands(QObject):
         self.signatures: SignatureWindow | None = None
         self.dissection: DissectionWindow | None = None
         self.refining = Refining(window)
+        self.filling = Filling(window)
         self.racing = Racing(window)
         self.judging = Judging(window)
         window.carried.told.connect(window.status.say)
@@ -52,6 +54,7 @@ class Commands(QObject):
         deeds: dict[str, Any] = {
             "open": self.ask_open,
             "save": self.ask_save,
+            "fill": self.filling.ask,
             "refine": self.refining.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
@@ -86,6 +89,7 @@ class Commands(QObject):
         if self.signatures is not None:
             self.signatures.wait()
         self.refining.wait()
+        self.filling.wait()
         self.racing.close()
         self.judging.close()
         if self.dissection is not None:

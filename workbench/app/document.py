@@ -147,6 +147,11 @@ class Document(QObject):
         else:
             self.session = replace(self.session, kind=kind)
 
+    @property
+    def asked_source(self) -> str:
+        """What was asked for last, opened or refused; empty at first."""
+        return (self._attempt or self.session).source
+
     def try_again(self, fixes: tuple[str, ...]) -> None:
         """Read what was asked for last once more, with more fixes."""
         attempt = self._attempt or self.session

@@ -31,6 +31,7 @@ def fill_menus(window: MainWindow) -> None:
     samples.aboutToShow.connect(lambda: fill_samples(window, samples))
     file_menu.addSeparator()
     file_menu.addAction(actions["save"])
+    file_menu.addAction(actions["fill"])
     carried = file_menu.addMenu("Carry a sur&face")
     carried.aboutToShow.connect(lambda: fill_carried(window, carried))
     screenshots = file_menu.addMenu("S&creenshot of")

@@ -81,11 +81,11 @@ def refine_into(path: Path, request: RefineRequest) -> int:
     return refined.mesh.simplex_count
 
 
-def free_name(folder: Path, stem: str) -> Path:
+def free_name(folder: Path, stem: str, ending: str = ".npz") -> Path:
     """`stem.npz` in `folder`, or with the first number that is free."""
-    path, number = folder / f"{stem}.npz", 2
+    path, number = folder / f"{stem}{ending}", 2
     while path.exists():
-        path, number = folder / f"{stem}-{number}.npz", number + 1
+        path, number = folder / f"{stem}-{number}{ending}", number + 1
     return path
 
 

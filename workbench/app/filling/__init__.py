@@ -1,0 +1,1 @@
+"""A closed surface filled with tetrahedra, in the window."""
