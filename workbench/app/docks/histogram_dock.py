@@ -92,7 +92,7 @@ class HistogramDock(QuantityDock):
     def _fill_menu(self, menu: QMenu) -> None:
         menu.clear()
         for text, is_on, deed in (
-            ("Weighted by area of the source", self.is_weighted, self.set_weighted),
+            (f"Weighted by {self._measured} of the source", self.is_weighted, self.set_weighted),
             ("Logarithmic counts", self.has_logarithmic_counts, self.set_logarithmic_counts),
         ):
             action = menu.addAction(text)
@@ -163,10 +163,15 @@ class HistogramDock(QuantityDock):
         self._centre.setVisible(centre is not None)
         if centre is not None:
             self._centre.setValue(float(np.log10(centre)) if logarithmic else centre)
-        plot.setLabel("left", ("area" if self.is_weighted else "simplices"))
+        plot.setLabel("left", self._measured if self.is_weighted else "simplices")
         self.plot.setXRange(float(edges[0]), float(edges[-1]), padding=0.01)
         top = float(self._heights(self.counts).max())
         self.plot.setYRange(bottom, top if top > bottom else bottom + 1.0, padding=0.04)
+
+    @property
+    def _measured(self) -> str:
+        """What simplices are weighed by."""
+        return "volume" if self._mesh is not None and self._mesh.dimension == 3 else "area"
 
     def _weights(self) -> Floats | None:
         if not self.is_weighted or self._mesh is None or self._mesh.simplex_count != len(self._bins):

@@ -112,7 +112,7 @@ class ControlPanel(QScrollArea):
         self.scale = QComboBox(group)
         self.scale.addItem("Matched to the source", True)
         self.scale.addItem("Kept from the start", False)
-        self.scale.setToolTip("Whether the start is scaled to the area of the source; a change makes it anew.")
+        self.scale.setToolTip("Whether the start is scaled to the area or volume of the source; a change makes it anew.")
         self.scale.activated.connect(lambda _: self._document.choose(match_area=self.scale.currentData()))
         layout.addRow("Kind", self.kind)
         self.inversions = QComboBox(group)
