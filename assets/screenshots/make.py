@@ -1,4 +1,4 @@
-"""The pictures of the README: the window on its first sample in a lively pose, the inspector on a formula, solids.
+"""The pictures of the README: the window on its first sample in a lively pose, a race, the inspector on a formula, solids.
 
     xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
 """
@@ -21,14 +21,19 @@ from PySide6.QtTest import QTest  # noqa: E402
 
 from workbench.app.anchor_set import AnchorSet  # noqa: E402
 from workbench.app.main_window import MainWindow  # noqa: E402
+from workbench.app.race.set_up_dialog import RaceChoice  # noqa: E402
 from workbench.app.settings import Settings  # noqa: E402
 from workbench.app.theme import ThemeSwitch  # noqa: E402
 from workbench.core.samples import make_sample  # noqa: E402
+from workbench.engine.race_messages import Entrant  # noqa: E402
 
 SIZE = (1500, 920)
 STEPS = 40
 BEND = 1.9
 """Angle by which the ends of the bar that carries a figure are bent towards each other."""
+RACERS = {"projected-newton": "Projected Newton", "aqp": "AQP", "slim": "SLIM", "l-bfgs": "L-BFGS"}
+MOMENT = 6
+"""Iteration at which the race is shown."""
 FORMULA = "lam*symmetric_dirichlet + (1 - lam)*condition_number"
 TURN = np.pi
 """Angle between the ends of the solid bar."""
@@ -62,12 +67,29 @@ def main(theme: str = "light") -> None:
         window.turns.draw_all()
         QTest.qWait(700)
         window.commands.save_screenshot(window, str(here / "window.png"))
+        show_race(window, here / "race.png")
         show_inspector(window, here / "inspector.png")
         show_solid(window, Path(folder) / "bar.npz", here / "volume.png")
         show_carried(window, here / "carried.png")
         window.close()
-    for name in ("window", "inspector", "volume", "carried"):
+    for name in ("window", "race", "inspector", "volume", "carried"):
         smaller(here / f"{name}.png")
+
+
+def show_race(window: MainWindow, path: Path) -> None:
+    """Four solvers on their way from the start to the pose, all as they were at an early moment."""
+    racing = window.commands.racing
+    racing.begin(RaceChoice(tuple(Entrant(label, id) for id, label in RACERS.items()), "", False, 1000, 1e-6))
+    race = racing.race
+    race.resize(1360, 820)
+    until(lambda: race.model.is_ready and all(record.frame is not None for record in race.model.records))
+    race.actions_by_name["run"].trigger()
+    until(lambda: race.model.is_over)
+    race.model.seek_to("iteration", MOMENT)
+    until(lambda: all(record.frame.iteration <= MOMENT for record in race.model.records))
+    QTest.qWait(1500)
+    window.commands.save_screenshot(race, str(path))
+    race.close()
 
 
 def show_inspector(window: MainWindow, path: Path) -> None:

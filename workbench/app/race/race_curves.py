@@ -27,7 +27,7 @@ PLOTS = (
     ("inverted", "Inverted simplices"),
 )
 AXIS_LABELS: dict[Axis, str] = {"iteration": "iterations", "seconds": "seconds of its own"}
-HEIGHTS = (3, 3, 3, 2)
+HEIGHTS = (5, 5, 5, 4)
 """Of the plots, to each other: the last is mostly a line at 0."""
 THINNEST, WIDER = 1.5, 0.9
 """Width of the last contestant's curve in pixels, and how much wider each one before it is."""
@@ -158,15 +158,14 @@ class RaceCurves(QWidget):
         self._marks.show([] if self.is_logarithmic["x"] else self._switches(), self.axis)
 
     def _say_why_empty(self) -> None:
-        """The title of the errors, with the reason where there is none to draw."""
+        """The title of the errors, or why there are none to draw; short, since no plot is narrower than its title."""
         errors = self.values("error")
         known = [values[np.isfinite(values)] for values in errors]
-        reason = ""
+        title = dict(PLOTS)["error"]
         if not any(len(values) for values in known):
-            reason = ": nobody's anchors are in place yet"
+            title = "Relative error: anchors not in place"
         elif self.is_logarithmic["y"] and not any((values > 0).any() for values in known):
-            reason = ": 0 for everyone so far"
-        title = f"{dict(PLOTS)['error']}{reason}"
+            title = "Relative error: 0 for all so far"
         if title != self._error_title:
             self._error_title = title
             row = [name for name, _ in PLOTS].index("error")
