@@ -89,7 +89,7 @@ def test_what_lies_under_the_pointer_is_a_tetrahedron(solid_window: MainWindow) 
     assert set(view.geometry_shown.triangles[view.triangle_at(pixel)].tolist()) <= set(solid_mesh().simplices[simplex].tolist())
 
 
-def test_a_brush_marks_the_faces_of_its_tetrahedra(solid_window: MainWindow) -> None:
+def test_a_brush_marks_the_faces_of_its_tetrahedra(solid_window: MainWindow, qtbot: QtBot) -> None:
     window = solid_window
     owners = window.target.view.geometry_shown.faces.simplices
     hidden = np.setdiff1d(np.arange(324), owners)
@@ -97,6 +97,13 @@ def test_a_brush_marks_the_faces_of_its_tetrahedra(solid_window: MainWindow) -> 
     for view in (window.source.view, window.target.view):
         assert view.surface._brush._area.GetNumberOfPolys() == (owners == owners[0]).sum()
         assert view.surface._brush._frames.GetNumberOfLines() == 12, "also what lies inside is found"
+    window.brush.brush(owners[:9], "a test")
+    assert view.surface._brush.actors[0].GetVisibility()
+    window.volume.choose(only_marked=True)
+    qtbot.waitUntil(lambda: set(view.geometry_shown.faces.simplices.tolist()) == set(owners[:9].tolist()))
+    assert not view.surface._brush.actors[0].GetVisibility(), "nothing else is drawn: colours are not hidden"
+    window.volume.choose(only_marked=False)
+    qtbot.waitUntil(lambda: view.surface._brush.actors[0].GetVisibility())
     window.brush.brush(hidden, "a test")
     assert not view.surface._brush.actors[0].GetVisibility()
     window.brush.clear()

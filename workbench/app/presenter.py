@@ -176,7 +176,8 @@ class Presenter(QObject):
         if self._faces is None:
             return
         solid, look = self._volume.solid, self._volume.look
-        self._show_faces()
+        if not self._show_faces():
+            self._mark_brushed()
         shell = solid.boundary.triangles if solid is not None and look.takes_away else None
         for view in self._views:
             if view.surface is not None:
@@ -230,7 +231,10 @@ class Presenter(QObject):
 
     def _mark_brushed(self) -> None:
         assert self._brushable is not None
-        part = self._brushable.part(self._brush.simplices)
+        marked = self._brush.simplices
+        if self._volume.is_on and self._volume.look.only_marked and len(marked) > 1:
+            marked = marked[:0]  # nothing else is drawn: a mark would only hide the colours
+        part = self._brushable.part(marked)
         for view in self._views:
             if view.surface is not None:
                 view.surface.show_brushed(part)

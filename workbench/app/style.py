@@ -24,6 +24,9 @@ def style_sheet(theme: Theme) -> str:
     QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {theme.text}; font-weight: 600; }}
     QCheckBox::indicator:unchecked, QListView::indicator:unchecked {{ border: 1px solid {theme.faint};
         border-radius: 2px; background: {theme.base}; width: 12px; height: 12px; }}
+    QToolButton#switch:checked {{ background: {theme.accent}; color: #ffffff; border: 1px solid {theme.accent};
+        border-radius: 3px; padding: 3px 5px; }}
+    QToolButton#switch:checked:disabled {{ background: {theme.border}; color: {theme.faint}; border-color: {theme.border}; }}
     QStatusBar {{ border-top: 1px solid {theme.border}; }}
     QStatusBar::item {{ border: 0; }}
     QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}

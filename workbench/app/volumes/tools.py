@@ -52,6 +52,7 @@ class _Tools(QWidget):
 
     def _switch(self, text: str, tip: str, deed: Callable[[bool], None]) -> QToolButton:
         button = QToolButton(self)
+        button.setObjectName("switch")
         button.setText(text)
         button.setCheckable(True)
         button.setToolTip(tip)
