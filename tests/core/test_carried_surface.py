@@ -132,6 +132,22 @@ def test_a_collapsed_triangle_has_no_area(inner: Mesh) -> None:
     assert found["measures"][DIRICHLET.id]["max"] == np.inf
 
 
+def test_triangles_without_area_are_carried_and_left_out_of_the_measures(cube: Mesh, inner: Mesh) -> None:
+    flat = [[0, 0, 1], [0, 1, 2]]  # the first row of the grid is straight
+    surface = replace(inner, simplices=np.vstack([flat, inner.simplices]))
+    bent = cube.vertices + 0.1 * np.sin(3 * cube.vertices[:, ::-1])
+    carried, clean = carry(surface, cube), carry(inner, cube)
+    assert "2 triangles of the carried surface have no area" in carried.note
+    moved = carried.at(bent)
+    for name, values in carried.table(moved).items():
+        assert np.isnan(values[:2]).all()
+        np.testing.assert_array_equal(values[2:], clean.table(moved)[name])
+    found = carried.measures(moved, [DIRICHLET])[DIRICHLET.id]
+    np.testing.assert_array_equal(found, carried.table(moved)[DIRICHLET.id])
+    with pytest.raises(MeshError, match="area"):
+        carry(replace(inner, simplices=np.array(flat)), cube)
+
+
 def test_what_cannot_be_carried_is_refused(cube: Mesh, square: Mesh, inner: Mesh) -> None:
     for surface, volume, what in (
         (inner, inner, "tetrahedra"),

@@ -56,7 +56,7 @@ def carried_report(carried: Carried, positions: Floats) -> dict[str, Any]:
     from workbench.core.quality import measure_map
 
     surface = carried.surface
-    measured = measure_map(surface.surface, surface.at(positions))
+    measured = measure_map(surface.measured, surface.at(positions))
     return {
         "path": carried.path,
         "vertices": surface.surface.vertex_count,
@@ -71,4 +71,5 @@ def write_carried(path: str, carried: Carried, positions: Floats) -> None:
     """The surface where the map of the volume takes it. Raises `WorkbenchError`."""
     from workbench.io.write import write_surface
 
-    write_surface(path, carried.surface.surface, carried.surface.at(positions))
+    moved = carried.surface.at(positions)
+    write_surface(path, carried.surface.surface, moved, carried.surface.table(moved))

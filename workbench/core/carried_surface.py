@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numba
@@ -11,11 +11,12 @@ import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.errors import MeshError
-from workbench.core.jacobians import Elements, build_elements
+from workbench.core.jacobians import Elements, build_elements, simplex_measures
 from workbench.core.load_report import count_of
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
 from workbench.core.nearest_tetrahedron import locate
+from workbench.core.quality import simplex_table
 from workbench.core.surface_jacobians import surface_singular_values
 
 OUTSIDE = 1e-9
@@ -48,9 +49,21 @@ class CarriedSurface:
         return int(np.count_nonzero(self.outside))
 
     @cached_property
+    def has_area(self) -> Booleans:
+        """(m,) bool: triangles that have an area in the source; the others are carried, but their map has no Jacobian."""
+        return simplex_measures(self.surface) > 0.0
+
+    @cached_property
+    def measured(self) -> Mesh:
+        """The surface without the triangles that have no area."""
+        if self.has_area.all():
+            return self.surface
+        return replace(self.surface, simplices=self.surface.simplices[self.has_area], texture=None, polygons=None)
+
+    @cached_property
     def elements(self) -> Elements:
-        """Frames of the triangles in the source."""
-        return build_elements(self.surface)
+        """Frames in the source of the triangles that are measured."""
+        return build_elements(self.measured)
 
     def at(self, positions: Floats) -> Floats:
         """Vertices (k, 3) of the surface under the map of the volume with these positions (n, 3). Cost: O(k)."""
@@ -58,24 +71,39 @@ class CarriedSurface:
         _weighted_sums(np.ascontiguousarray(positions, dtype=np.float64), self.corners, self.weights, moved)
         return moved
 
-    def singular_values(self, moved: Floats) -> SingularValues:
-        """Those of the surface's own map, from its place in the source to the vertices `moved` (k, 3)."""
-        return SingularValues(surface_singular_values(self.elements, moved))
-
     def measures(self, moved: Floats, measures: Iterable[Measure]) -> dict[str, Floats]:
-        """Values (m,) of each measure of the surface's own map, by id."""
-        sigma = self.singular_values(moved)
-        return {measure.id: measure.prepare(2)(sigma) for measure in measures}
+        """Values (m,) of each measure of the surface's own map, from its place in the source to the vertices `moved` (k, 3).
+
+        By id; NaN for triangles without an area.
+        """
+        sigma = SingularValues(surface_singular_values(self.elements, moved))
+        return {measure.id: self._on_all(measure.prepare(2)(sigma)) for measure in measures}
+
+    def table(self, moved: Floats) -> dict[str, Floats]:
+        """The columns of `simplex_table` for the surface's own map; NaN for triangles without an area."""
+        return {name: self._on_all(values) for name, values in simplex_table(self.measured, moved).items()}
+
+    def _on_all(self, values: Floats) -> Floats:
+        if self.measured is self.surface:
+            return values
+        spread = np.full(self.surface.simplex_count, np.nan)
+        spread[self.has_area] = values
+        return spread
 
     @property
     def note(self) -> str:
-        """A sentence on the vertices outside; empty where there are none."""
-        if not self.outside_count:
-            return ""
-        return (
-            f"{count_of(self.outside_count, 'vertex')} of the carried surface {'is' if self.outside_count == 1 else 'are'} "
-            f"outside the volume, by {self.farthest:.3g} at most: what is outside follows the nearest tetrahedron."
-        )
+        """Sentences on vertices outside and triangles without an area; empty where there are none."""
+        flat = int(np.count_nonzero(~self.has_area))
+        sentences = []
+        if self.outside_count:
+            sentences.append(
+                f"{count_of(self.outside_count, 'vertex')} of the carried surface {'is' if self.outside_count == 1 else 'are'} "
+                f"outside the volume, by {self.farthest:.3g} at most: what is outside follows the nearest tetrahedron."
+            )
+        if flat:
+            what = "has no area and is" if flat == 1 else "have no area and are"
+            sentences.append(f"{count_of(flat, 'triangle')} of the carried surface {what} not measured.")
+        return " ".join(sentences)
 
 
 def carry(surface: Mesh, volume: Mesh) -> CarriedSurface:
@@ -95,6 +123,8 @@ def carry(surface: Mesh, volume: Mesh) -> CarriedSurface:
             f"{surface.name or 'The surface'}: a vertex is {farthest:.3g} from the volume, whose diameter is "
             f"{volume.diameter:.3g}; scale and move the surface into the volume."
         )
+    if not (simplex_measures(surface) > 0.0).any():
+        raise MeshError(f"{surface.name or 'The surface'}: none of its triangles has an area; name a file of a surface.")
     is_outside = places.distances > OUTSIDE * volume.diameter
     corners = frozen(volume.simplices[places.simplices], np.int64)
     return CarriedSurface(surface, corners, frozen(places.weights), frozen(is_outside, np.bool_), farthest)

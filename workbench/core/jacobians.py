@@ -57,9 +57,9 @@ def rest_edges(mesh: Mesh) -> Floats:
         return np.ascontiguousarray(edges)
     first, second = edges[:, :, 0], edges[:, :, 1]
     length = np.linalg.norm(first, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        along = np.einsum("ij,ij->i", first, second) / length
-        across = np.linalg.norm(np.cross(first, second), axis=1) / length
+    divisor = np.where(length > 0.0, length, 1.0)  # of a triangle without a first edge nothing is left but zeros
+    along = np.einsum("ij,ij->i", first, second) / divisor
+    across = np.linalg.norm(np.cross(first, second), axis=1) / divisor
     flat = np.zeros((mesh.simplex_count, 2, 2))
     flat[:, 0, 0], flat[:, 0, 1], flat[:, 1, 1] = length, along, across
     return flat

@@ -8,6 +8,7 @@ import numpy as np
 
 from workbench.core import nearest_tetrahedron
 from workbench.core.carried_surface import carry
+from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.surface_normals import vertex_normals
 from workbench.engine.process import is_cached
@@ -26,5 +27,5 @@ def carry_a_triangle() -> None:
     corners = np.vstack([np.zeros(3), np.eye(3)])
     carried = carry(Mesh(0.2 * corners[:3] + [0.1, 0.1, 0.4], np.array([[0, 1, 2]])), Mesh(corners, np.arange(4)[None]))
     moved = carried.at(corners)
-    carried.singular_values(moved)
+    carried.measures(moved, [Measure("det")])
     vertex_normals(moved, carried.surface.simplices)

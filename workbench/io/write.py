@@ -88,11 +88,14 @@ def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
     write_text(path, vertices + _faces(polygons, str))
 
 
-def write_surface(path: str | os.PathLike[str], surface: Mesh, positions: Floats) -> None:
+def write_surface(
+    path: str | os.PathLike[str], surface: Mesh, positions: Floats, columns: Mapping[str, ArrayLike] | None = None
+) -> None:
     """Writes a surface in space where a map takes its vertices, `positions` (n, 3), in the format of the ending of `path`.
 
-    OBJ keeps faces and texture coordinates; npz has the source as `V`; VTU and CSV have the measures of the surface's
-    own map. Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
+    OBJ keeps faces and texture coordinates; npz has the source as `V`; VTU and CSV have `columns`, or else what
+    `simplex_table` finds for the surface's own map.
+    Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
     """
     ending = Path(path).suffix.lower()
     if ending not in SURFACE_ENDINGS:
@@ -102,7 +105,7 @@ def write_surface(path: str | os.PathLike[str], surface: Mesh, positions: Floats
     elif ending == ".npz":
         write_case(path, {"V": surface.vertices, "S": surface.simplices, "X": positions})
     else:
-        write_simplices(path, surface, positions, simplex_table(surface, positions))
+        write_simplices(path, surface, positions, simplex_table(surface, positions) if columns is None else columns)
 
 
 def write_simplices(path: str | os.PathLike[str], mesh: Mesh, positions: Floats, columns: Mapping[str, ArrayLike]) -> None:

@@ -55,7 +55,7 @@ class CarriedLayer:
             return
         np.copyto(self._points, geometry.frame.to_display(vertices), casting="same_kind")
         np.copyto(self._normals, vertex_normals(vertices, self._triangles), casting="same_kind")
-        np.copyto(self._values, np.nan_to_num(values, nan=3e38, posinf=3e38), casting="same_kind")
+        np.copyto(self._values, np.nan_to_num(values, nan=0.0, posinf=3e38), casting="same_kind")
         for data in (self._point_data, self._normal_data, self._value_data):
             data.Modified()
         self._vtk_points.Modified()

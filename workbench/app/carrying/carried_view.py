@@ -85,10 +85,12 @@ class CarriedView(QObject):
         if self.surface is None or positions is None or self.is_busy:
             return
         surface = self.surface
-        self._begin(
-            lambda: write_surface(path, surface.surface, surface.at(positions)),
-            lambda _: self.told.emit(f"Saved {path}."),
-        )
+
+        def work() -> None:
+            moved = surface.at(positions)
+            write_surface(path, surface.surface, moved, surface.table(moved))
+
+        self._begin(work, lambda _: self.told.emit(f"Saved {path}."))
 
     def _begin(self, work: Any, then: Any) -> None:
         self._work = Background(work, self)
