@@ -18,7 +18,7 @@ from workbench.core.solver import Solver
 from workbench.core.status import Status
 from workbench.engine.contestants import PRESETS, Contestant, parse_choices
 from workbench.engine.map_store import Frame, MapStore
-from workbench.engine.race import Limits, Race
+from workbench.engine.race import LEAD, Limits, Race
 
 
 @dataclass(frozen=True)
@@ -69,9 +69,28 @@ def test_a_turn_goes_to_who_has_spent_least(square):
         assert idle.seconds == before[idle.label]  # others' time is not charged
         assert expected.seconds >= before[expected.label] + 0.01
     slow, quick = race.racers
-    assert abs(slow.seconds - quick.seconds) < 0.01 + 0.008 + 0.05  # a slice and a step; the rest is a machine's hiccup
+    assert abs(slow.seconds - quick.seconds) < 0.01 + 0.008 + 0.2  # a slice and a step; the rest is a machine's hiccup
     assert len(quick.rows) > len(slow.rows)
     assert all(racer.rows[-1].seconds == racer.seconds for racer in race.racers)
+
+
+def test_between_two_long_steps_comes_whoever_waits(square):
+    long, slice_seconds, patience = 0.03, 0.004, 0.015
+    contestants = [Contestant("one", Sleeper(long)), Contestant("two", Sleeper(long)), Contestant("quick", Sleeper(0.001))]
+    race = Race(problem_on(square, reach=0.0), square.vertices, contestants)
+    turns = []
+    for _ in range(3):
+        race.advance(slice_seconds, patience=patience)
+    for _ in range(60):
+        least = min(racer.seconds for racer in race.racers)
+        ahead = race.racer("quick").seconds - least
+        turn = race.advance(slice_seconds, patience=patience)
+        if turn.label != "quick" and turns and turns[-1] != "quick":
+            assert ahead > LEAD  # else it would have been its turn after so long a step
+        turns.append(turn.label)
+        seconds = [racer.seconds for racer in race.racers]
+        assert max(seconds) - min(seconds) < LEAD + long + slice_seconds + 0.1  # the last is a machine's hiccup
+    assert turns.count("quick") > 20 and {"one", "two"} < set(turns)
 
 
 @pytest.mark.parametrize("preset", PRESETS)

@@ -81,7 +81,7 @@ class Race:
             )
             for contestant in contestants
         )
-        self._last_turns: dict[Racer, float] = {}
+        self._last_turns: dict[Racer, tuple[float, float]] = {}  # when they ended, and how long they were
 
     def racer(self, label: str) -> Racer:
         """The contestant of that label. Raises `KeyError`."""
@@ -103,17 +103,18 @@ class Race:
         """A turn for the running contestant that has spent the least; at least one step, until its slice is over.
 
         Returns the contestant, None where the race is over. `interrupt` ends the turn within a trial of a line search.
-        Whoever had no turn for `patience` seconds on the clock comes first, unless it is ahead by more than `LEAD`: so
-        long steps of several contestants do not follow on each other, and nobody gains more than one slice by it.
+        Whoever had no turn for `patience` seconds on the clock comes first, short turns before long ones, unless it is
+        ahead by more than `LEAD`: so long steps of several contestants do not follow on each other.
         """
         racer = self._next(patience)
         if racer is None:
             return None
-        end = racer.seconds + slice_seconds
+        before = racer.seconds
+        end = before + slice_seconds
         racer.step(interrupt)
         while racer.is_running and racer.seconds < end and not interrupt():
             racer.step(interrupt)
-        self._last_turns[racer] = time.perf_counter()
+        self._last_turns[racer] = (time.perf_counter(), racer.seconds - before)
         return racer
 
     def _next(self, patience: float) -> Racer | None:
@@ -122,10 +123,13 @@ class Race:
         if not running:
             return None
         least = min(running, key=lambda racer: racer.seconds)
-        waiting = [racer for racer in running if racer.seconds <= least.seconds + LEAD]
-        longest = min(waiting, key=lambda racer: self._last_turns.get(racer, 0.0))
-        waits = time.perf_counter() - self._last_turns.get(longest, 0.0) > patience
-        return longest if waits else least
+        latest = time.perf_counter() - patience
+        waiting = [
+            racer
+            for racer in running
+            if racer.seconds <= least.seconds + LEAD and self._last_turns.get(racer, (latest, 0.0))[0] < latest
+        ]
+        return min(waiting, key=lambda racer: self._last_turns[racer][1]) if waiting else least
 
     def step_all(self, interrupt: Interrupt = never) -> None:
         """One step of every running contestant."""
