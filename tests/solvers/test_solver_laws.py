@@ -172,5 +172,19 @@ def test_a_wrong_solver_is_caught(wrong, law, words):
     assert "simplices" in finding.case  # the mesh is named
 
 
+class LeapsHonestly(Right):
+    def step(self, problem, state, interrupt=never):
+        if problem.anchors_lag(state.positions):
+            return super().step(problem, state, interrupt)
+        far = replace(state, positions=state.positions - problem.gradient(state.positions))
+        return replace(self.rebase(problem, far), iteration=state.iteration + 1, previous_energy=state.energy)
+
+
+def test_who_inverts_much_but_counts_right_does_not_count_wrong():
+    assert not try_law(LeapsHonestly(), LAWS["nothing-inverts"]).holds
+    finding = try_law(LeapsHonestly(), LAWS["states-tell-the-truth"])
+    assert finding.holds, finding.sentence
+
+
 def test_every_law_has_a_solver_that_breaks_it():
     assert {law for _, law, _ in WRONG} == set(LAWS)

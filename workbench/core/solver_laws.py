@@ -91,7 +91,7 @@ def states_tell_the_truth(solver: Solver, case: SolverCase) -> str:
     """Energy, inverted simplices and anchor error of a state are those of its map."""
     problem, states = _run(solver, case)
     for state in states:
-        energy, inverted = problem.energy_and_inverted(state.positions)
+        energy, inverted = problem.energy(state.positions), problem.inverted(state.positions)
         if abs(state.energy - energy) > 1e-9 * abs(energy) + 1e-12:
             return f"step {state.iteration}: the state says energy {state.energy:.12g}, the map has {energy:.12g}."
         if state.inverted != inverted:
