@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from multiprocessing import get_context
-
 import numpy as np
 
 from workbench.core import nearest_tetrahedron
@@ -11,15 +9,12 @@ from workbench.core.carried_surface import carry
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.surface_normals import vertex_normals
-from workbench.engine.process import is_cached
+from workbench.engine.compile_elsewhere import compile_elsewhere
 
 
-def compile_elsewhere() -> None:
-    """Unless an earlier run has compiled them: in a process of its own, since compiling holds the interpreter for seconds."""
-    if not is_cached(nearest_tetrahedron._locate_all):
-        process = get_context("spawn").Process(target=carry_a_triangle, daemon=True)
-        process.start()
-        process.join()
+def compile_carrying() -> None:
+    """To be called before a surface is carried on a thread of the window."""
+    compile_elsewhere(nearest_tetrahedron._locate_all, carry_a_triangle)
 
 
 def carry_a_triangle() -> None:

@@ -18,7 +18,7 @@ from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 from workbench.core.carried_surface import CarriedSurface, carry
 from workbench.core.mesh import Mesh
-from workbench.engine.carrying_kernels import compile_elsewhere
+from workbench.engine.carrying_kernels import compile_carrying
 from workbench.io.opening import read_source
 from workbench.io.write import write_surface
 
@@ -74,7 +74,7 @@ class CarriedView(QObject):
         self.told.emit("Looking where the surface lies in the solid…")
 
         def work() -> CarriedSurface:
-            compile_elsewhere()
+            compile_carrying()
             return carry(read_source(source).mesh, mesh)
 
         self._begin(work, lambda found: self._take(found, mesh))

@@ -38,9 +38,11 @@ def fill_into(request: FillRequest, cancelled: Callable[[], bool], tell: Callabl
     """Fill and write; a sentence about the solid. Raises `WorkbenchError`."""
     from workbench.core.fixes import reorient
     from workbench.engine.filling import FillOptions, fill_surface
+    from workbench.engine.verdict_kernels import compile_verdicts
     from workbench.io.opening import read_source
     from workbench.io.write import write_map
 
+    compile_verdicts()
     surface, _ = reorient(read_source(request.source).mesh)
     options = FillOptions(edge_length=surface.diameter / request.parts)
     solid = fill_surface(surface, options, cancelled=cancelled, tell=tell)

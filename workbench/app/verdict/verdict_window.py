@@ -26,6 +26,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.injectivity import global_injectivity, local_injectivity
 from workbench.core.mesh import Mesh
 from workbench.core.verdict import Offenders, Verdict
+from workbench.engine.verdict_kernels import compile_verdicts
 
 MOST_LISTED = 500
 """Offenders of one kind that are listed singly; all of them are marked by their heading."""
@@ -178,6 +179,8 @@ class VerdictWindow(QDialog):
 
 def judged(mesh: Mesh, positions: Floats) -> tuple[str, tuple[Offenders, ...]]:
     """What is to be said of a map, and what is to blame."""
+    if mesh.dimension == 3:
+        compile_verdicts()
     local = local_injectivity(mesh, positions)
     if local.holds is False:
         return f"Not injective, not even locally. {local.reason}", local.offenders
