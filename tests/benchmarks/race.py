@@ -55,7 +55,7 @@ def set_up(triangles: int, solvers: tuple[str, ...]) -> StartRace:
 
 
 class Pictures:
-    """When each view showed another map of its contestant; a picture of the same map does not count."""
+    """When another map of each contestant was shown, in whichever view; a picture of the same map does not count."""
 
     def __init__(self, window: RaceWindow) -> None:
         self._window = window
@@ -65,14 +65,15 @@ class Pictures:
             pane.view.drawn.connect(lambda p=place: self._drawn(p))
 
     def _drawn(self, place: int) -> None:
-        frame = self._window.model.records[place].frame
-        if frame is not None and frame.number != self._numbers[place]:
-            self._numbers[place] = frame.number
-            self.times[place].append(time.perf_counter())
+        index = self._window.grid.panes[place].shown
+        frame = self._window.model.records[index].frame
+        if frame is not None and frame.number != self._numbers[index]:
+            self._numbers[index] = frame.number
+            self.times[index].append(time.perf_counter())
 
-    def said(self, place: int, begin: float, end: float) -> str:
-        """Pictures a second, and between which times nine of ten came."""
-        times = np.array([moment for moment in self.times[place] if begin <= moment <= end])
+    def said(self, index: int, begin: float, end: float) -> str:
+        """Pictures a second, and the time within which nine of ten followed on the one before."""
+        times = np.array([moment for moment in self.times[index] if begin <= moment <= end])
         gaps = 1e3 * np.diff(np.concatenate([[begin], times, [end]]))
         return f"{len(times) / (end - begin):4.1f} pictures a second, nine of ten within {np.percentile(gaps, 90):.0f} ms"
 
@@ -123,12 +124,12 @@ def measure(triangles: int, solvers: tuple[str, ...]) -> None:
     size = window.grid.panes[0].view.size_in_pixels
     print(f"{model.mesh.simplex_count} triangles, views of {size[0]} x {size[1]}:")
     charged = 0.0
-    for place, (record, (steps, spent)) in enumerate(zip(model.records, before, strict=True)):
+    for index, (record, (steps, spent)) in enumerate(zip(model.records, before, strict=True)):
         steps, spent = record.iterations - steps, record.spent - spent
         charged += spent
         cost = f"{1e3 * spent / steps:.0f} ms a step" if steps else "no step"
         over = "" if record.frame is not None and record.frame.phase == "running" else ", then it was done"
-        print(f"  {record.entrant.solver:26} {pictures.said(place, begin, end)}; {steps} steps in {spent:.2f} s, {cost}{over}")
+        print(f"  {record.entrant.solver:26} {pictures.said(index, begin, end)}; {steps} steps in {spent:.2f} s, {cost}{over}")
     solved, worked = charged / (end - begin), worked / (end - begin)
     print(
         f"  the engine solved {solved:.0%} of the time, the window worked {worked:.0%} of a core; gaps of its {BEAT} ms timer: "
