@@ -41,6 +41,7 @@ SHORTCUTS = """
 </table>
 <h3>Solids</h3>
 <table cellspacing="6">
+<tr><td>C, Shift+C</td><td>cut across the line of sight; show all again</td></tr>
 <tr><td>Cut</td><td>a plane of the source (⋯: of the target); drag its handle; ⇄ keeps the other side</td></tr>
 <tr><td>Section</td><td>cuts tetrahedra through, or else leaves them whole</td></tr>
 <tr><td>Peel</td><td>takes away the tetrahedra of least distortion; ⋯ chooses of which kind</td></tr>
@@ -50,6 +51,7 @@ SHORTCUTS = """
 <h3>Race</h3>
 <table cellspacing="6">
 <tr><td>Space, . and Home</td><td>run or pause all, one step of all, restart</td></tr>
+<tr><td>left, right</td><td>an iteration back or forth, with Shift ten</td></tr>
 <tr><td>L</td><td>back from the past to the newest maps</td></tr>
 <tr><td>X</td><td>A and B change places; hold Y for a moment's look</td></tr>
 </table>
