@@ -22,7 +22,7 @@ from workbench.core.pattern import HessianPattern
 TOLERANCE = 1e-3
 """Residual in the norm of the preconditioner's inverse at which a solution is good enough, as a part of that at 0."""
 MOST_ITERATIONS = 500
-"""Beyond, the direction is taken as it is: it descends, and a factorisation would have been done by now."""
+"""Beyond, the solution is taken as it is: a factorisation would have been done by now."""
 LEAST_PIVOT = 0.05
 """Part of a pivot of A's diagonal block below which the incomplete one is not trusted: A's own block stands in."""
 
@@ -35,7 +35,7 @@ class ConjugateGradients(LinearSolver):
     pattern : HessianPattern     d <= 3 coordinates a vertex; blocks are 3x3, with ones where a coordinate is missing
     tolerance, most : float, int see `TOLERANCE` and `MOST_ITERATIONS`
 
-    `iterations` : int           of the last solve
+    `iterations` : int           of the last solve, the most for any of its right-hand sides
     """
 
     name = "cg"
@@ -79,6 +79,7 @@ class ConjugateGradients(LinearSolver):
         Raises `SingularMatrixError` where the matrix turns out not to be positive definite.
         """
         columns = rhs.reshape(len(rhs), -1)
+        self.iterations = 0
         return np.column_stack([self._solve_one(column) for column in columns.T]).reshape(rhs.shape)
 
     def _solve_one(self, rhs: Floats) -> Floats:

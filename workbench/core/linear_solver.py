@@ -13,6 +13,7 @@ from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, an
 from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.conjugate_gradients import ConjugateGradients
 from workbench.core.errors import WorkbenchError
+from workbench.core.large_solid import LargeSolid
 from workbench.core.linear_back_end import LinearSolver, SingularMatrixError
 from workbench.core.pattern import HessianPattern
 
@@ -177,6 +178,8 @@ def make_linear_solver(pattern: HessianPattern, name: str = "") -> LinearSolver:
     name = name or os.environ.get(CHOICE, "")
     if name:
         check_back_end(name)
-    elif pattern.dimension == 3 and pattern.size > LARGE_SOLID:
-        name = ConjugateGradients.name
-    return BACK_ENDS[name or available_back_ends()[0]](pattern)
+        return BACK_ENDS[name](pattern)
+    direct = BACK_ENDS[available_back_ends()[0]]
+    if pattern.dimension == 3 and pattern.size > LARGE_SOLID:
+        return LargeSolid(pattern, direct)
+    return direct(pattern)
