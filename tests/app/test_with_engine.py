@@ -127,16 +127,6 @@ def test_a_file_that_is_none_is_refused_with_a_sentence(live: MainWindow, qtbot:
     live.document.step()
     qtbot.waitUntil(lambda: live.document.snapshot.number > number, timeout=LONG)
 
-    mesh = live.document.mesh
-    live.error_bar.dismiss()
-    live.open("sample:ball")
-    qtbot.waitUntil(live.error_bar.isVisible, timeout=LONG)
-    assert "tetrahedra" in live.error_bar.sentence.text()
-    assert live.document.mesh is mesh
-    number = live.document.snapshot.number
-    live.document.step()
-    qtbot.waitUntil(lambda: live.document.snapshot.number > number, timeout=LONG)
-
 
 TWENTY = """
 import sys
