@@ -18,7 +18,7 @@ from workbench.core.surface_normals import vertex_normals
 
 
 class CarriedLayer:
-    """Drawn within a view's own units; `show` moves and colours it, `remove` takes it out."""
+    """Drawn within a view's own units; `move` and `paint` change it, `remove` takes it out."""
 
     def __init__(self, view: MeshView, triangles: Integers, vertex_count: int) -> None:
         self._view = view
@@ -48,17 +48,20 @@ class CarriedLayer:
         style.SetDiffuse(0.7)
         view.add_actor(self.actor)
 
-    def show(self, vertices: Floats, values: Floats) -> None:
-        """Draw it with its vertices (k, 3) in units of the mesh, and one number a triangle (m,)."""
+    def move(self, vertices: Floats) -> None:
+        """Put its vertices (k, 3), in units of the mesh, where they are now."""
         geometry = self._view.geometry_shown
         if geometry is None:
             return
         np.copyto(self._points, geometry.frame.to_display(vertices), casting="same_kind")
         np.copyto(self._normals, vertex_normals(vertices, self._triangles), casting="same_kind")
-        np.copyto(self._values, np.nan_to_num(values, nan=0.0, posinf=3e38), casting="same_kind")
-        for data in (self._point_data, self._normal_data, self._value_data):
+        for data in (self._point_data, self._normal_data, self._vtk_points):
             data.Modified()
-        self._vtk_points.Modified()
+
+    def paint(self, values: Floats) -> None:
+        """Colour it by one number a triangle (m,); NaN, where there is none, is drawn as the least."""
+        np.copyto(self._values, np.nan_to_num(values, nan=0.0, posinf=3e38), casting="same_kind")
+        self._value_data.Modified()
 
     def show_range(self, colour_range: ColourRange) -> None:
         low, high, is_logarithmic = colour_range.low, colour_range.high, colour_range.is_logarithmic

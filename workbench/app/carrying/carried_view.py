@@ -117,6 +117,7 @@ class CarriedView(QObject):
         for colour_range in self._ranges.values():
             colour_range.forget()
         self.bar.caption.setText(f"{Path(surface.name).stem}, {surface.simplex_count} triangles")
+        self._layers[0].move(surface.vertices)
         self.bar.show()
         self.set_opacity(self.opacity)
         self.show_map()
@@ -126,7 +127,7 @@ class CarriedView(QObject):
     # ------------------------------------------------------------------------------------------ drawing
 
     def show_map(self) -> None:
-        """Bring the surface in line with the newest map."""
+        """Bring the surface in line with the newest map; the source is drawn again when its turn comes."""
         positions = self._document.positions
         if self.surface is None or positions is None:
             return
@@ -134,9 +135,10 @@ class CarriedView(QObject):
         values = self.values(moved)
         self.range.take(values)
         self.bar.legend.show_values(values)
-        for layer, vertices in zip(self._layers, (self.surface.surface.vertices, moved), strict=True):
-            layer.show(vertices, values)
-        self._refresh()
+        for layer in self._layers:
+            layer.paint(values)
+        self._layers[-1].move(moved)
+        self._panes[-1].view.refresh()
 
     def show_quantity(self, id: str) -> None:
         """Colour the surface by another of its measures."""
