@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from workbench.app.views.camera import ViewCamera, axes_that_face, slanted_axes
+from workbench.app.views.camera import ViewCamera, axes_for_solid, axes_that_face, slanted_axes
 from workbench.app.views.picking import ScreenTriangles, nearest_pixel
 
 SIZE = (500, 400)
@@ -89,3 +89,14 @@ def test_a_surface_without_a_front_is_looked_at_from_a_corner() -> None:
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     closed = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     np.testing.assert_array_equal(axes_that_face(corners, closed), slanted_axes())
+
+
+@pytest.mark.parametrize("thin", [0, 1, 2])
+def test_the_first_look_at_a_flat_solid_is_at_its_broad_face(thin: int) -> None:
+    points = np.random.default_rng(thin).random((200, 3))
+    points[:, thin] *= 0.2
+    axes = axes_for_solid(points)
+    np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+    assert np.linalg.det(axes) > 0
+    assert axes[2][thin] > 0.8
+    assert np.array_equal(axes_for_solid(np.random.default_rng(thin).random((200, 3))), slanted_axes())

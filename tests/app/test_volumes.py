@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 from scipy.spatial import ConvexHull
@@ -216,6 +216,17 @@ def test_a_cut_shows_the_same_tetrahedra_in_every_view_and_ends(solid_window: Ma
         assert not view.surface.ghost.actor.GetVisibility()
 
 
+def test_a_key_cuts_across_the_line_of_sight_and_another_shows_all(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window = solid_window
+    window.activateWindow()
+    QTest.keyClick(window, Qt.Key.Key_C)
+    look = window.volume.look
+    assert look.is_cut and np.allclose(look.normal, window.source.view.camera.axes[2])
+    assert window.actions_by_name["cut"].isChecked() and window.look.cut.axis.currentData() == "view"
+    QTest.keyClick(window, Qt.Key.Key_C, Qt.KeyboardModifier.ShiftModifier)
+    assert window.volume.look.is_whole and not window.actions_by_name["cut"].isChecked()
+
+
 def test_the_handle_moves_the_plane(solid_window: MainWindow) -> None:
     window = solid_window
     window.look.cut_along("x")
@@ -288,4 +299,5 @@ def test_the_controls_are_there_for_solids_only(solid_window: MainWindow, qtbot:
     window.open("grid")
     qtbot.waitUntil(lambda: window.document.kind == "plane" and window.target.view.geometry_shown.is_flat)
     assert not window.look.cut.isVisible() and not window.look.peel.isVisible()
+    assert not window.actions_by_name["cut"].isEnabled()
     assert len(window.target.view.geometry_shown.triangles) == 480

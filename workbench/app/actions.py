@@ -41,6 +41,8 @@ TEXTS: dict[str, ActionText] = {
     "edges": ActionText("Show &edges", ("E",), checkable=True),
     "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),
     "unbrush": ActionText("Clear &brush", ("Esc",), "No simplex is marked any longer (Esc)"),
+    "cut": ActionText("&Cut the solid", ("C",), "A plane across the line of sight, or none", checkable=True),
+    "uncut": ActionText("Show &all of the solid", ("Shift+C",), "Neither cut, peeled nor pulled apart (Shift+C)"),
     "signatures": ActionText("Shape &signatures…", ("Ctrl+H",), "Compare maps by their histograms of (78)"),
     "race": ActionText("&Race solvers…", ("Ctrl+Shift+R",), "Let solvers run against each other from one start"),
     "judge": ActionText("&Injectivity…", ("Ctrl+J",), "Whether the map is one-to-one, and where it is not"),

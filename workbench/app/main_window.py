@@ -89,7 +89,8 @@ class MainWindow(QMainWindow):
         self.presenter = Presenter(
             self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush, self.volume
         )
-        self.look = LookTools(self.volume, self.quantities, self.source, self.target, [dock.view for dock in self.maps])
+        small = [dock.view for dock in self.maps]
+        self.look = LookTools(self.volume, self.quantities, self.source, self.target, small, self.actions_by_name)
         self.carried = CarriedView(self.document, (self.source, self.target), self.target, self)
         self.turns.add(self.histogram.plot, self._draw_histogram)
         self.turns.add(self.convergence.graphics, self.convergence.refresh)

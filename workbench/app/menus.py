@@ -55,8 +55,8 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("judge", "next-place", "last-place"):
         analyse.addAction(actions[name])
     view = bar.addMenu("&View")
-    for name in ("fit", "edges", "lock", "unbrush"):
-        view.addAction(actions[name])
+    for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
+        view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")

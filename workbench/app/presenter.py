@@ -181,7 +181,7 @@ class Presenter(QObject):
         shell = solid.boundary.triangles if solid is not None and look.takes_away else None
         for view in self._views:
             if view.surface is not None:
-                view.surface.ghost.show(shell, look.ghost)
+                view.surface.ghost.show(shell, look.ghost, as_wires=look.is_wired)
         self._draw_source()
         self._draw_soon()
 

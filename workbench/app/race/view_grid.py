@@ -13,7 +13,7 @@ from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.view_turns import ViewTurns
 from workbench.app.theme import Theme
-from workbench.app.views.camera import slanted_axes
+from workbench.app.views.camera import axes_for_solid
 from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
@@ -93,7 +93,7 @@ class ViewGrid(QWidget):
     def _show_mesh(self) -> None:
         start, set_up = self._model.start, self._model.set_up
         assert start is not None
-        seen = start if start.shape[1] == 2 else start @ slanted_axes()[:2].T
+        seen = start if start.shape[1] == 2 else start @ axes_for_solid(start)[:2].T
         width, height = np.maximum(np.ptp(seen, axis=0), 1e-12)
         self._aspect = float(width / height)
         faces = drawn_faces(set_up.mesh.simplices)

@@ -16,6 +16,9 @@ DISTANCE = 50.0
 FACING = 0.3
 """Length of the summed normals, of the area, from which on a surface has a front."""
 
+FLAT = 0.55
+"""A solid is flat when its thickness is at most this part of its breadth."""
+
 Points = NDArray[np.floating[Any]]
 """(n, 3), single or double precision"""
 Pixel = tuple[float, float]
@@ -123,6 +126,16 @@ def slanted_axes() -> Floats:
     return _axes(np.array([0.45, -0.8, 0.4]), np.array([0.0, 0.0, 1.0]))
 
 
+def axes_for_solid(points: Points) -> Floats:
+    """Axes for a first look at a solid: from a corner, or, at one that is flat, a little from the side of its broad face."""
+    extent = np.ptp(np.asarray(points, dtype=np.float64), axis=0)
+    thinnest, next_thinnest = np.argsort(extent, kind="stable")[:2]
+    if extent[thinnest] > FLAT * extent[next_thinnest]:
+        return slanted_axes()
+    towards, upwards = np.eye(3)[thinnest], np.eye(3)[1 if thinnest == 2 else 2]
+    return _a_little_aside(_axes(towards, upwards))
+
+
 def axes_that_face(points: Points, triangles: Integers) -> Floats:
     """Axes for a first look at an open surface: a little from the side of its mean normal, y upwards where that can be.
 
@@ -135,7 +148,11 @@ def axes_that_face(points: Points, triangles: Integers) -> Floats:
     if not length > FACING * total:
         return slanted_axes()
     upwards = np.array([0.0, 1.0, 0.0] if abs(mean[1]) < 0.9 * length else [0.0, 0.0, 1.0])
-    straight = _axes(mean, upwards)
+    return _a_little_aside(_axes(mean, upwards))
+
+
+def _a_little_aside(straight: Floats) -> Floats:
+    """Axes that look from the upper right of those that look straight on."""
     return _axes(np.array([0.4, 0.25, 1.0]) @ straight, straight[1])
 
 

@@ -37,12 +37,15 @@ class Ghost:
     def set_theme(self, theme: Theme) -> None:
         self.actor.GetProperty().SetColor(*(DARK_VEIL if theme.is_dark else theme.edges))
 
-    def show(self, triangles: Integers | None, opacity: float) -> None:
-        """Draw these triangles (k, 3), facing outwards; None draws none."""
+    def show(self, triangles: Integers | None, opacity: float, *, as_wires: bool = False) -> None:
+        """Draw these triangles (k, 3), facing outwards, or their edges; None draws none."""
         self.actor.SetVisibility(triangles is not None and opacity > 0)
         if triangles is None:
             return
         if triangles is not self._shown:
             self._shown = triangles
             self._polydata.SetPolys(cells(triangles))
-        self.actor.GetProperty().SetOpacity(opacity)
+        style = self.actor.GetProperty()
+        style.SetOpacity(opacity)
+        style.SetRepresentationToWireframe() if as_wires else style.SetRepresentationToSurface()
+        style.SetLighting(not as_wires)

@@ -12,7 +12,7 @@ from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.theme import Theme
-from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, axes_that_face, slanted_axes
+from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, axes_for_solid, axes_that_face
 from workbench.app.views.canvas import make_canvas
 from workbench.app.views.flat_picture import FlatPicture, packed
 from workbench.app.views.geometry import Geometry
@@ -245,8 +245,8 @@ class MeshView(QWidget):
 def _first_look(geometry: Geometry) -> ViewCamera:
     if geometry.is_flat:
         return ViewCamera()
-    is_solid = geometry.simplices.shape[1] == 4  # it turns to all sides alike
-    return ViewCamera(axes=slanted_axes() if is_solid else axes_that_face(geometry.points, geometry.triangles))
+    is_solid = geometry.simplices.shape[1] == 4
+    return ViewCamera(axes=axes_for_solid(geometry.points) if is_solid else axes_that_face(geometry.points, geometry.triangles))
 
 
 def box_corners(points: NDArray[np.float32]) -> Floats:

@@ -30,6 +30,7 @@ class VolumeLook:
     only_marked : bool       whether only brushed tetrahedra are drawn, where there are any
     spread : float           how far tetrahedra are pulled apart: so many times as far as their centroids are from the middle
     ghost : float            opacity of the boundary round what is left of the solid
+    is_wired : bool          whether that boundary is drawn as its edges, or else as a veil
     """
 
     is_cut: bool = False
@@ -42,6 +43,7 @@ class VolumeLook:
     only_marked: bool = False
     spread: float = 0.0
     ghost: float = 0.12
+    is_wired: bool = False
 
     @property
     def is_whole(self) -> bool:

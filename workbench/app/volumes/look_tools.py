@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from PySide6.QtGui import QAction
 
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.views.mesh_view import MeshView
@@ -20,7 +21,13 @@ class LookTools:
     """Made once by the window; all of it is hidden while there is no solid."""
 
     def __init__(
-        self, volume: VolumeView, book: QuantityBook, source: ViewPane, target: ViewPane, panels: Sequence[MeshView]
+        self,
+        volume: VolumeView,
+        book: QuantityBook,
+        source: ViewPane,
+        target: ViewPane,
+        panels: Sequence[MeshView],
+        actions: Mapping[str, QAction],
     ) -> None:
         self._volume = volume
         self._eye = source.view
@@ -30,6 +37,18 @@ class LookTools:
         target.add_tools(self.peel)
         self.handles = [PlaneHandle(source.view, volume, of_target=False), PlaneHandle(target.view, volume, of_target=True)]
         self.linked = LinkedViews([source.view, target.view], panels, lambda: volume.is_on)
+
+        self._cut, self._uncut = actions["cut"], actions["uncut"]
+        self._cut.triggered.connect(lambda on: self.cut_along("view" if on else ""))
+        self._uncut.triggered.connect(lambda _=False: volume.show_all())
+        for signal in (volume.changed, volume.opened):
+            signal.connect(self._show_actions)
+        self._show_actions()
+
+    def _show_actions(self) -> None:
+        for action in (self._cut, self._uncut):
+            action.setEnabled(self._volume.is_on)
+        self._cut.setChecked(self._volume.look.is_cut)
 
     def cut_along(self, name: str) -> None:
         """Cut across an axis, or across the line of sight (`view`), so that the section faces the eye; empty: no plane."""

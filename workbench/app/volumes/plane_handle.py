@@ -13,6 +13,8 @@ from workbench.core.arrays import Floats
 
 REACH = 13.0
 """Pixels round the handle in which the pointer takes it."""
+MARGIN = 18.0
+"""Pixels from the edge of the view that it keeps."""
 SHORTEST = 0.2
 """Part of its length that the way of the plane has at least on the screen: a plane seen face on is moved up and down."""
 OVERHANG = 0.06
@@ -76,11 +78,12 @@ class PlaneHandle(QWidget):
         return np.asarray(way if np.hypot(*way) >= least else np.array([0.0, -max(least, 1.0)]))
 
     def handle(self) -> QPointF:
-        """Where the handle is, in pixels: in the middle of one side of the outline."""
+        """Where the handle is, in pixels: in the middle of one side of the outline, but within the view."""
         corners = self._view.project(self._corners())
         middles = 0.5 * (corners + np.roll(corners, -1, axis=0))
         # the side that is farthest up lies clear of most of what is drawn
-        return QPointF(*middles[middles[:, 1].argmin()])
+        place = middles[middles[:, 1].argmin()]
+        return QPointF(*np.clip(place, MARGIN, np.array(self._view.size_in_pixels) - MARGIN))
 
     def _follow(self) -> None:
         if self._of_target and self.is_there:

@@ -14,6 +14,8 @@ STEPS = 1000
 """Steps of a slider."""
 FURTHEST = 1.5
 """How far tetrahedra can be pulled apart; see `VolumeLook`."""
+SHELLS = (("None", 0.0, False), ("Faint", 0.12, False), ("Stronger", 0.3, False), ("Wires", 0.35, True))
+"""How the boundary can be drawn round what is left of a solid: words, opacity, whether as edges."""
 
 
 class _Tools(QWidget):
@@ -141,11 +143,12 @@ class PeelTools(_Tools):
             action.setChecked(quantity.id == self._volume.peel_by)
             action.triggered.connect(lambda _=False, id=quantity.id: self._volume.peel_by_quantity(id))
         veil = menu.addMenu("Boundary round the rest")
-        for text, opacity in (("None", 0.0), ("Faint", 0.12), ("Stronger", 0.3)):
+        look = self._volume.look
+        for text, opacity, as_wires in SHELLS:
             action = veil.addAction(text)
             action.setCheckable(True)
-            action.setChecked(self._volume.look.ghost == opacity)
-            action.triggered.connect(lambda _=False, o=opacity: self._volume.choose(ghost=o))
+            action.setChecked((look.ghost, look.is_wired) == (opacity, as_wires))
+            action.triggered.connect(lambda _=False, o=opacity, w=as_wires: self._volume.choose(ghost=o, is_wired=w))
         menu.addSeparator()
         menu.addAction("Show all").triggered.connect(self._volume.show_all)
 

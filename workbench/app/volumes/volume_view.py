@@ -71,7 +71,7 @@ class VolumeView(QObject):
             snapshot = self._document.snapshot
             number = snapshot.number if snapshot is not None and self.look.follows_map else -1
             marked = self._brush.simplices if self.look.only_marked else None
-            needed = (replace(self.look, ghost=0.0), number, marked if marked is None else marked.tobytes())
+            needed = (replace(self.look, ghost=0.0, is_wired=False), number, marked if marked is None else marked.tobytes())
             if needed != self._drawn_for or self._drawn is None:
                 self._drawn_for = needed
                 self._drawn = self.solid.faces(self.look, self._document.positions, self.values(), marked)
@@ -125,6 +125,7 @@ class VolumeView(QObject):
             "section": look.is_exact,
             "plane": "target" if look.cuts_target else "source",
             "veil": look.ghost,
+            "wires": look.is_wired,
             "peel_by": self.peel_by,
         }
 
@@ -135,6 +136,7 @@ class VolumeView(QObject):
         self.choose(
             is_exact=kept.get("section") is True,
             cuts_target=kept.get("plane") == "target",
+            is_wired=kept.get("wires") is True,
             ghost=float(veil) if is_number else VolumeLook.ghost,  # type: ignore[arg-type]
         )
         if isinstance(peel_by, str):
