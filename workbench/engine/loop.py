@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import traceback
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from multiprocessing.connection import Connection
 
 import numpy as np
@@ -26,6 +26,7 @@ from workbench.core.state import Approach, State
 from workbench.core.status import Status
 from workbench.engine.admission import check_admissible
 from workbench.engine.hand import HandFollower
+from workbench.engine.legs import LegBook, state_without_past
 from workbench.engine.messages import (
     Command,
     Dissect,
@@ -33,6 +34,7 @@ from workbench.engine.messages import (
     Failure,
     Load,
     Loaded,
+    MapReport,
     Pause,
     Progress,
     Quit,
@@ -46,6 +48,7 @@ from workbench.engine.messages import (
     SetSolver,
     Step,
     TakeMap,
+    TakeUp,
 )
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
 
@@ -53,25 +56,6 @@ HAND_RESTS = 0.12
 """Seconds without a new anchor command after which the full solver goes on, though the hand still holds the anchor."""
 HAND_LETS_GO = 0.05
 """Seconds after a release in which the last events are answered before the full solver starts."""
-
-
-@dataclass(frozen=True, eq=False)
-class MapReport(Report):
-    """A snapshot without what the window derives from the positions (see `workbench.engine.messages.Snapshot`)."""
-
-    generation: int
-    number: int
-    positions: Floats
-    phase: str
-    status: Status
-    rows: tuple[HistoryRow, ...]
-    anchor_serial: int
-    limiting_simplex: int
-    inverted: int
-    seconds_published: float
-    timing: dict[str, float]
-    solver: str
-    distortion: str
 
 
 class EngineLoop:
@@ -89,6 +73,7 @@ class EngineLoop:
         by itself.
         """
         self._hand = HandFollower(corrector, pending)
+        self._legs = LegBook()
         self._publish = publish
         self._pending = pending
         self._generation = 0
@@ -151,6 +136,8 @@ class EngineLoop:
             if command.generation == self._generation and self._problem is not None:
                 self._seconds = 0.0
                 self._start_from(command.positions, 0)
+        elif isinstance(command, TakeUp):
+            self._take_up_all(command)
         elif isinstance(command, Run):
             self._limits, self._running, self._steps_left = command, True, 0
             self._begin_run()
@@ -234,10 +221,23 @@ class EngineLoop:
             start = make_start(self._mesh, self._kind, id, command.parameters, command.file, command.match_area, problem)
         self._reset = command
         self._seconds = 0.0
-        self._start_from(start, 0)
+        self._start_from(start, 0, "start")
 
-    def _start_from(self, start: Floats, iteration: int) -> None:
+    def _take_up_all(self, command: TakeUp) -> None:
+        if command.generation != self._generation or self._problem is None:
+            return
+        choices, held = command.problem, command.anchors
+        distortion = Distortion.resolve(choices.distortion, choices.parameters)
+        problem = self._problem.with_distortion(distortion, choices.allow_inversions)
+        self._configured_solver(command.solver, problem)
+        held.as_anchors.check(problem.mesh.vertex_count, problem.dimension)
+        self._choices, self._solver_choice, self._anchors, self._problem = choices, command.solver, held, problem
+        self._running, self._steps_left, self._boundary_positions, self._seconds = False, 0, None, 0.0
+        self._start_from(command.positions, command.iteration)
+
+    def _start_from(self, start: Floats, iteration: int, origin: str = "map") -> None:
         assert self._problem is not None
+        self._legs.moved(origin)
         self._solver = self._configured_solver(self._solver_choice, self._problem)
         if self._choices.fixed_boundary:
             self._boundary_positions = start[self._boundary()].copy()
@@ -315,6 +315,7 @@ class EngineLoop:
                 approach=replace(state.approach, stuck=0),
             )
             self._hand.moved()
+            self._legs.changed()
             self._begin_run()
         else:
             self._rebase()
@@ -329,8 +330,7 @@ class EngineLoop:
         assert self._mesh is not None
         anchors = Anchors.none(self._mesh.dimension)
         if self._anchors is not None and len(self._anchors.vertices):
-            held = self._anchors
-            anchors = Anchors(held.vertices, held.targets, held.weights, held.groups)  # type: ignore[arg-type]
+            anchors = self._anchors.as_anchors
         if self._boundary_positions is not None:
             anchors = anchors.with_added(self._boundary(), self._boundary_positions)
         return anchors
@@ -347,6 +347,7 @@ class EngineLoop:
             state = replace(state, status=Status.INVERTED_START)
         self._state = state
         self._hand.moved()
+        self._legs.changed()
         self._begin_run()
         if not self.is_active:
             self.publish_map()
@@ -359,6 +360,7 @@ class EngineLoop:
             if self._state.status not in (Status.RUNNING, Status.INVERTED_START, Status.NONFINITE):
                 # Asked again: what stopped it then (a limit, a looser tolerance) may not stop it now.
                 self._state = replace(self._state, status=Status.RUNNING, previous_energy=float("nan"))
+                self._legs.changed()
 
     # -------------------------------------------------------------------------------------------- steps
 
@@ -389,12 +391,16 @@ class EngineLoop:
         """One iteration, if there is one to take; false when the map is settled and only a new command can change it."""
         if not self.is_active:
             return False
-        problem, state, solver = self._problem, self._current(), self._solver
-        assert problem is not None and solver is not None
+        by_hand = self._hand_moves
         begin = time.perf_counter()
-        before = problem.workspace.all_seconds()
+        assert self._problem is not None and self._solver is not None
+        before = self._problem.workspace.all_seconds()
+        state, solver = self._current(), self._solver
         try:
-            following = self._step(problem, state, solver)
+            if not (by_hand or self._is_dragging or self._legs.is_open):
+                state = self._open_leg(solver)
+            problem = self._problem
+            following = self._step(problem, state, solver, by_hand) if state.status is Status.RUNNING else state
         except Exception as error:
             self._running, self._steps_left = False, 0
             step = f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}"
@@ -403,6 +409,8 @@ class EngineLoop:
             return False
         if following is None:
             return False
+        if not self._legs.is_open:
+            self._legs.moved()
         elapsed = time.perf_counter() - begin
         self._seconds += elapsed
         after = problem.workspace.all_seconds()
@@ -410,8 +418,16 @@ class EngineLoop:
         self._take_up(problem, solver, state, following)
         return True
 
-    def _step(self, problem: Problem, state: State, solver: Solver) -> State | None:
-        if self._hand_moves:
+    def _open_leg(self, solver: Solver) -> State:
+        """Forget what only this process knows, and tell from where the solver goes on."""
+        assert self._problem is not None
+        self._problem, self._state = state_without_past(solver, self._problem, self._current())
+        choices = self._choices, self._solver_choice, self._anchors, self._limits.tolerance
+        self._publish(self._legs.open(self._generation, self._state, choices))
+        return self._state
+
+    def _step(self, problem: Problem, state: State, solver: Solver, by_hand: bool) -> State | None:
+        if by_hand:
             following = self._hand.step(problem, state)
             return None if following is None else checked(solver, problem, state, following)
         return guarded_step(solver, problem, state, self._pending)
@@ -471,6 +487,7 @@ class EngineLoop:
                 timing=self._timing,
                 solver=self._solver_choice.solver,
                 distortion=problem.distortion.id,
+                leg=self._legs.leg,
             )
         )
 

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.constraints import Anchors
 from workbench.core.dissection import Dissection
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
@@ -93,6 +94,11 @@ class SetAnchors(Command):
         object.__setattr__(self, "targets", frozen(self.targets))
         object.__setattr__(self, "weights", frozen(self.weights))
 
+    @property
+    def as_anchors(self) -> Anchors:
+        """Raises `WorkbenchError` where they contradict themselves."""
+        return Anchors(self.vertices, self.targets, self.weights, self.groups)  # type: ignore[arg-type]
+
 
 @dataclass(frozen=True)
 class Run(Command):
@@ -134,6 +140,21 @@ class TakeMap(Command):
 
     generation: int
     positions: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class TakeUp(Command):
+    """Go on with all of these at once: what an undo, or a session that was opened, brings back. The map rests.
+
+    Dropped where `generation` is another mesh's; refused as a whole where the problem, the solver or the anchors are.
+    """
+
+    generation: int
+    positions: Floats
+    problem: SetProblem
+    solver: SetSolver
+    anchors: SetAnchors
+    iteration: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,6 +236,25 @@ class Loaded(Report):
     neighbours: Integers | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class LegBegun(Report):
+    """From here on the solver iterates on its own, so that whoever knows this can repeat it.
+
+    `origin` is `start` or `map`, or `previous` where nothing has moved the map since the leg before; `positions` (n, d) may
+    be None then. `iteration` counts on; `Snapshot.leg` names the leg that a map belongs to.
+    """
+
+    generation: int
+    number: int
+    origin: str
+    iteration: int
+    positions: Floats | None
+    problem: SetProblem
+    solver: SetSolver
+    anchors: SetAnchors | None
+    tolerance: float
+
+
 @dataclass(frozen=True)
 class Refused(Report):
     """A command could not be carried out: the sentence says why; `fixes` are names to offer as buttons.
@@ -249,6 +289,26 @@ class Restarted(Report):
 
 
 @dataclass(frozen=True, eq=False)
+class MapReport(Report):
+    """A snapshot without what the window derives from the positions (see `Snapshot`)."""
+
+    generation: int
+    number: int
+    positions: Floats
+    phase: str
+    status: Status
+    rows: tuple[HistoryRow, ...]
+    anchor_serial: int
+    limiting_simplex: int
+    inverted: int
+    seconds_published: float
+    timing: dict[str, float]
+    solver: str
+    distortion: str
+    leg: int = 0
+
+
+@dataclass(frozen=True, eq=False)
 class Snapshot(Report):
     """What the window draws.
 
@@ -267,6 +327,7 @@ class Snapshot(Report):
     seconds_published : float `time.perf_counter()` clock of the machine when it was published
     singular_values : (m, n)  float32, signed, where someone watches them, else None
     timing : dict             seconds by part (assemble, factorise, solve, line_search) of the last step
+    leg : int                 number of the `LegBegun` that led to the map; 0 where something else had the last word
     """
 
     generation: int
@@ -285,6 +346,7 @@ class Snapshot(Report):
     distortion: str = ""
     rows: tuple[HistoryRow, ...] = ()  # every row since the snapshot before, oldest first; none where nothing was stepped
     singular_values: Any = None
+    leg: int = 0
 
 
 @dataclass(frozen=True, eq=False)

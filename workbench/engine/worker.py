@@ -34,6 +34,7 @@ from workbench.engine.messages import (
     SetSolver,
     Snapshot,
     Step,
+    TakeUp,
     Watch,
 )
 from workbench.engine.priority import run_child
@@ -147,6 +148,9 @@ class EngineWorker(ProcessOwner):
         """Keep what a new process must be told to go on like the old one."""
         if isinstance(command, SetProblem | SetSolver | SetAnchors | Reset):
             self._settings[type(command)] = command
+        elif isinstance(command, TakeUp):
+            self._settings |= {type(part): part for part in (command.problem, command.solver, command.anchors)}
+            self._running = None
         elif isinstance(command, Run):
             self._running = command
         elif isinstance(command, Pause | Step):
@@ -257,6 +261,7 @@ class EngineWorker(ProcessOwner):
             solver=report.solver,
             distortion=report.distortion,
             rows=rows,
+            leg=report.leg,
         )
         if self._on_snapshot is not None:
             self._on_snapshot(snapshot)

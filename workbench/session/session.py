@@ -11,7 +11,8 @@ class Session:
     """The choices that make a run: the same in the window and on the command line.
 
     `source` is a path or `sample:ID`; empty strings stand for the default of the kind of map.
-    Anchors are tuples, so that sessions compare and hash by value; weights are inf for hard anchors.
+    Anchors are tuples, so that sessions compare by value: weights are inf for hard anchors, groups -1 for those that move
+    alone (see `workbench.core.constraints.Anchors`). `carried` is the surface that a solid takes along.
     """
 
     source: str = ""
@@ -30,6 +31,8 @@ class Session:
     anchor_vertices: tuple[int, ...] = ()
     anchor_targets: tuple[tuple[float, ...], ...] = ()
     anchor_weights: tuple[float, ...] = ()
+    anchor_groups: tuple[int, ...] = ()
+    carried: str = ""
     iterations: int = 1000
     tolerance: float = 1e-6
     time_limit: float = float("inf")

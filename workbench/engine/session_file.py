@@ -1,0 +1,205 @@
+"""Session files: one zip with a readable `session.json` and the maps, or the JSON alone.
+
+A zip rather than a folder, so that a session is one thing to copy, and is written whole or not at all. Its members are
+stored as they are: any viewer shows the JSON in it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import math
+import os
+import stat
+import zipfile
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+from workbench.core.arrays import Floats, frozen
+from workbench.core.errors import WorkbenchError
+from workbench.io.atomic import replacing
+from workbench.io.opening import SAMPLE
+from workbench.io.read import read_bytes
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
+from workbench.session.text import parsed, plain_of, readable, record_of
+
+ENDING = ".dwb"
+ENDINGS = (ENDING, ".json")
+JSON_MEMBER = "session.json"
+LARGEST_TEXT = 2**26
+LARGEST_ARRAYS = 2**31
+EXPANSION = 16
+"""Bytes that a byte of a zip may become; in those that are written here it stays one."""
+MOST_MEMBERS = 4096
+PATH_FIELDS = ("source", "start_file", "carried")
+LONG_AGO = (1980, 1, 1, 0, 0, 0)
+"""Date of all members: the same session gives the same bytes."""
+
+
+def is_session_file(path: str | os.PathLike[str]) -> bool:
+    """Whether the ending is that of a session."""
+    return Path(path).suffix.lower() in ENDINGS
+
+
+def write_session(path: str | os.PathLike[str], record: SessionRecord) -> None:
+    """Write a session, whole or not at all: with its maps as `.dwb`, without them as `.json`.
+
+    Files are named relative to the folder of the session. Raises `WorkbenchError`.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in ENDINGS:
+        raise WorkbenchError(f"{path}: sessions are written as {' or '.join(ENDINGS)}; choose one of these endings.")
+    folder = Path(os.path.realpath(path)).parent
+    is_bare = path.suffix.lower() != ENDING
+    if is_bare:
+        legs = tuple(replace(leg, positions=None) for leg in record.legs)
+        record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
+    plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: _relative(name, folder))))
+    text = (readable(plain) + "\n").encode("utf-8")
+    with replacing(path) as part:
+        if is_bare:
+            part.write_bytes(text)
+            return
+        with zipfile.ZipFile(part, "w") as archive:
+            archive.writestr(zipfile.ZipInfo(JSON_MEMBER, LONG_AGO), text)
+            for name, array in arrays.items():
+                with archive.open(zipfile.ZipInfo(f"{name}.npy", LONG_AGO), "w", force_zip64=True) as member:
+                    np.lib.format.write_array(member, np.ascontiguousarray(array, "<f8"), allow_pickle=False)
+
+
+def read_session(path: str | os.PathLike[str]) -> SessionRecord:
+    """The session in a file, its paths made absolute; nothing that it names is opened. Raises `WorkbenchError`."""
+    path = Path(path)
+    try:
+        return _record_in(path, read_bytes(path))
+    except WorkbenchError as error:
+        sentence = error.sentence if str(path) in error.sentence else f"{path}: {error.sentence}"
+        raise WorkbenchError(sentence) from None
+    except MemoryError:
+        raise WorkbenchError(f"{path} asks for more memory than there is; it is damaged, or no session.") from None
+
+
+def _record_in(path: Path, data: bytes) -> SessionRecord:
+    arrays: Mapping[str, Floats] = {}
+    if data[:2] == b"PK":
+        text, arrays = _unpacked(data)
+    elif len(data) > LARGEST_TEXT:
+        raise WorkbenchError(f"It has {len(data) / 2**20:.0f} MiB of text, too much for a session.")
+    else:
+        text = data
+    try:
+        plain = parsed(text.decode("utf-8-sig"))
+    except UnicodeDecodeError:
+        raise WorkbenchError("It is no session: neither a zip nor text in UTF-8.") from None
+    record = record_of(plain, arrays)
+    folder = Path(os.path.abspath(path)).parent
+    return replace(record, session=_with_paths(record.session, lambda name: os.path.normpath(folder / name)))
+
+
+def _unpacked(data: bytes) -> tuple[bytes, dict[str, Floats]]:
+    """The text of a zip, and its arrays by name; nothing is written anywhere."""
+    text: bytes | None = None
+    arrays: dict[str, Floats] = {}
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = archive.infolist()
+            if len(members) > MOST_MEMBERS or sum(member.file_size for member in members) > EXPANSION * len(data):
+                raise WorkbenchError("Unpacked it would be too large for a session.")
+            for member in members:
+                name = member.filename
+                if stat.S_ISLNK(member.external_attr >> 16) or Path(name).name != name or "\\" in name:
+                    raise WorkbenchError(f"It has a member {name[:60]!r} that leads elsewhere; a session has none.")
+                if name == JSON_MEMBER and text is None:
+                    text = _bounded(archive, member, LARGEST_TEXT)
+                elif name.endswith(".npy") and name.removesuffix(".npy") not in arrays:
+                    arrays[name.removesuffix(".npy")] = _array_in(name, _bounded(archive, member, LARGEST_ARRAYS))
+                else:
+                    raise WorkbenchError(f"It has a member {name[:60]!r} that a session does not have, or has it twice.")
+    except (zipfile.BadZipFile, zipfile.LargeZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError):
+        raise WorkbenchError("It is damaged or cut short, or packed in a way that is not known.") from None
+    except Exception as error:
+        if isinstance(error, WorkbenchError | MemoryError):
+            raise
+        raise WorkbenchError("It is damaged.") from None  # the unpacker's own faults
+    if text is None:
+        raise WorkbenchError(f"It has no {JSON_MEMBER}, so it is no session.")
+    return text, arrays
+
+
+def _bounded(archive: zipfile.ZipFile, member: zipfile.ZipInfo, most: int) -> bytes:
+    """The bytes of a member; what it says about its size need not be true."""
+    if member.file_size > most:
+        raise WorkbenchError(f"Its {member.filename} would be too large for a session.")
+    with archive.open(member) as stream:
+        data = stream.read(member.file_size + 1)
+    if len(data) != member.file_size:
+        raise WorkbenchError(f"Its {member.filename} is not as long as it says.")
+    return data
+
+
+def _array_in(name: str, data: bytes) -> Floats:
+    """A map (n, 2|3) out of the bytes of an npy file: plain finite numbers, never pickled, no longer than the bytes."""
+    stream: IO[bytes] = io.BytesIO(data)
+    shape: tuple[int, ...]
+    try:
+        if np.lib.format.read_magic(stream) != (1, 0):  # type: ignore[arg-type]
+            raise ValueError
+        shape, by_columns, dtype = np.lib.format.read_array_header_1_0(stream)
+    except (ValueError, TypeError, SyntaxError, RecursionError):
+        raise WorkbenchError(f"Its {name} is no array of numbers.") from None
+    content = data[stream.tell() :]
+    if dtype != np.dtype("<f8") or by_columns or len(shape) != 2 or shape[1] not in (2, 3):
+        raise WorkbenchError(f"Its {name} is no map: rows of two or three numbers are needed.")
+    if math.prod(shape) * 8 != len(content):
+        raise WorkbenchError(f"Its {name} is not as long as it says.")
+    found = frozen(np.frombuffer(content, dtype="<f8").reshape(shape))
+    if not np.isfinite(found).all():
+        raise WorkbenchError(f"Its {name} has a number that is not finite.")
+    return found
+
+
+# ---------------------------------------------------------------------------------------------- files
+
+
+def _with_paths(session: Session, change: Callable[[str], str]) -> Session:
+    """The session with the names of its files changed; samples stay."""
+    changes: dict[str, Any] = {field: _changed(getattr(session, field), change) for field in PATH_FIELDS}
+    return replace(session, **changes)
+
+
+def _changed(name: str, change: Callable[[str], str]) -> str:
+    return change(name) if name and not name.startswith(SAMPLE) else name
+
+
+def _relative(name: str, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(os.path.realpath(name), folder)).as_posix()
+    except ValueError:  # on another drive
+        return str(Path(name).absolute())
+
+
+def source_digest(source: str) -> str:
+    """sha256 of the file of a source; empty for a sample, and where there is no such file."""
+    if not source or source.startswith(SAMPLE):
+        return ""
+    try:
+        return hashlib.sha256(read_bytes(Path(source))).hexdigest()
+    except WorkbenchError:
+        return ""
+
+
+def source_trouble(record: SessionRecord) -> str:
+    """Why the source of a session cannot be used as it was, in a sentence; empty where it can."""
+    source = record.session.source
+    if not source or source.startswith(SAMPLE):
+        return "" if source else "The session names no mesh."
+    if not Path(source).is_file():
+        return f"The mesh of the session is not at {source}."
+    if record.sha256 and source_digest(source) != record.sha256:
+        return f"The mesh {source} is another than when the session was saved."
+    return ""

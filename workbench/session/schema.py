@@ -1,0 +1,167 @@
+"""What may stand in a session file: each value is checked before anything is made of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from workbench.core.errors import WorkbenchError
+from workbench.core.method import KINDS
+
+LARGEST_COORDINATE = 1e70
+LONGEST_TEXT = 20_000
+LONGEST_PATH = 4096
+MOST_ANCHORS = 250_000
+MOST_PARAMETERS = 200
+MOST_ITERATIONS = 10**9
+SHOWN = 60
+
+Check = Callable[[str, Any], Any]
+"""(what it is called, value) -> the value as a session has it. Raises `WorkbenchError`."""
+
+
+def refuse(what: str, value: Any, wanted: str) -> WorkbenchError:
+    """The error that says what is wrong with a value."""
+    shown = repr(value) if isinstance(value, str | int | float | bool | None) else f"a {type(value).__name__}"
+    shown = shown if len(shown) <= SHOWN else shown[:SHOWN] + "…"
+    return WorkbenchError(f"{what} is {shown}; it has to be {wanted}.")
+
+
+def text(what: str, value: Any, longest: int = LONGEST_TEXT) -> str:
+    """A string without control characters."""
+    if not isinstance(value, str) or len(value) > longest or any(ord(c) < 32 for c in value):
+        raise refuse(what, value, f"a line of at most {longest} characters")
+    return value
+
+
+def path(what: str, value: Any) -> str:
+    """The name of a file, or `sample:ID`."""
+    return text(what, value, LONGEST_PATH)
+
+
+def flag(what: str, value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise refuse(what, value, "true or false")
+    return value
+
+
+def whole(what: str, value: Any, lowest: int = 0, highest: int = MOST_ITERATIONS) -> int:
+    """An integer between two bounds."""
+    if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:
+        raise refuse(what, value, f"a whole number from {lowest} to {highest}")
+    return value
+
+
+def number(what: str, value: Any, lowest: float = -LARGEST_COORDINATE, highest: float = LARGEST_COORDINATE) -> float:
+    """A finite number between two bounds."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not lowest <= value <= highest:
+        raise refuse(what, value, f"a number from {lowest:g} to {highest:g}")
+    return float(value)
+
+
+def amount(what: str, value: Any) -> float:
+    return number(what, value, 0.0)
+
+
+def kind(what: str, value: Any) -> str:
+    if not isinstance(value, str) or value not in ("auto", *KINDS):
+        raise refuse(what, value, f"one of auto, {', '.join(KINDS)}")
+    return value
+
+
+def rows(what: str, value: Any, most: int) -> list[Any]:
+    """A list that is not too long."""
+    if not isinstance(value, list):
+        raise refuse(what, value, "a list")
+    if len(value) > most:
+        raise WorkbenchError(f"{what} has {len(value)} entries; at most {most} are taken.")
+    return value
+
+
+def fixes(what: str, value: Any) -> tuple[str, ...]:
+    """Names of fixes; those that there are not are refused where they are applied."""
+    return tuple(text(what, name, SHOWN) for name in rows(what, value, 20))
+
+
+def parameters(what: str, value: Any) -> dict[str, Any]:
+    """Values by name: numbers, switches and words."""
+    if not isinstance(value, dict) or len(value) > MOST_PARAMETERS:
+        raise refuse(what, value, f"an object of at most {MOST_PARAMETERS} parameters")
+    found: dict[str, Any] = {}
+    for name, item in value.items():
+        called = f"{what}.{name[:SHOWN]}"
+        text(called, name, SHOWN)
+        if isinstance(item, bool):
+            found[name] = item
+        elif isinstance(item, str):
+            found[name] = text(called, item, SHOWN)
+        elif isinstance(item, int):
+            found[name] = whole(called, item, -(2**62), 2**62)
+        else:
+            found[name] = number(called, item)
+    return found
+
+
+def numbers_by_name(what: str, value: Any) -> dict[str, float]:
+    """Parameters that are numbers."""
+    return {name: number(f"{what}.{name}", item) for name, item in parameters(what, value).items()}
+
+
+def digest(what: str, value: Any) -> str:
+    """A sha256 in hexadecimal; empty where it is not known."""
+    found = text(what, value, 64)
+    if found and (len(found) != 64 or set(found) - set("0123456789abcdef")):
+        raise refuse(what, value, "64 hexadecimal digits")
+    return found
+
+
+def anchors(what: str, value: Any) -> dict[str, Any]:
+    """The fields of a session that `[vertex, [x, y], weight, group]` of every anchor make.
+
+    The weight is null for a hard one; it and the group may be left out.
+    """
+    vertices: list[int] = []
+    targets: list[tuple[float, ...]] = []
+    weights: list[float] = []
+    groups: list[int] = []
+    for row in rows(what, value, MOST_ANCHORS):
+        if not isinstance(row, list) or not 2 <= len(row) <= 4:
+            raise refuse(f"A row of {what}", row, "[vertex, [x, y], weight, group]")
+        vertices.append(whole(f"A vertex of {what}", row[0], 0, 2**62))
+        target = rows(f"A target of {what}", row[1], 3)
+        if len(target) < 2 or len(target) != len(targets[0] if targets else target):
+            raise refuse(f"A target of {what}", target, "two coordinates each, or three each")
+        targets.append(tuple(number(f"A target of {what}", c) for c in target))
+        soft = row[2] if len(row) > 2 else None
+        weights.append(math.inf if soft is None else amount(f"A weight of {what}", soft))
+        groups.append(whole(f"A group of {what}", row[3], -1, 2**62) if len(row) > 3 else -1)
+    if len(set(vertices)) != len(vertices):
+        raise WorkbenchError(f"{what} names a vertex twice; one target a vertex is needed.")
+    return {
+        "anchor_vertices": tuple(vertices),
+        "anchor_targets": tuple(targets),
+        "anchor_weights": tuple(weights),
+        "anchor_groups": tuple(groups),
+    }
+
+
+CHOICES: dict[str, Check] = {
+    "kind": kind,
+    "fixes": fixes,
+    "distortion": text,
+    "distortion_parameters": numbers_by_name,
+    "solver": text,
+    "solver_parameters": parameters,
+    "initializer": text,
+    "initializer_parameters": parameters,
+    "start_file": path,
+    "match_area": flag,
+    "fixed_boundary": flag,
+    "allow_inversions": flag,
+    "carried": path,
+    "iterations": whole,
+    "tolerance": amount,
+    "time_limit": amount,
+}
+"""Fields of a session that stand in a file by their own names; anchors and the source are written in other words."""

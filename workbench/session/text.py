@@ -1,0 +1,195 @@
+"""A session as JSON: only what differs from the defaults is written, and nothing but what is known is read."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, get_args
+
+from workbench.core.arrays import Floats
+from workbench.core.errors import WorkbenchError
+from workbench.session import schema
+from workbench.session.journal import LONGEST, Leg, Origin
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
+
+FORMAT = "distortion-workbench session"
+VERSION = 1
+ANCHORS = ("anchor_vertices", "anchor_targets", "anchor_weights", "anchor_groups")
+LEG_CHOICES = (
+    "distortion", "distortion_parameters", "solver", "solver_parameters", "fixed_boundary", "allow_inversions", "tolerance",
+)  # fmt: skip
+"""Choices in which a leg may differ from the session that it belongs to; its anchors may, too."""
+MAP = "map"
+"""Name of the array of the map; legs that begin at a map have `leg-0`, `leg-1` and so on."""
+
+
+def plain_of(record: SessionRecord) -> tuple[dict[str, Any], dict[str, Floats]]:
+    """The JSON object, and the arrays by name that belong beside it. Raises `WorkbenchError` for too many anchors."""
+    session = record.session
+    if len(session.anchor_vertices) > schema.MOST_ANCHORS:
+        raise WorkbenchError(
+            f"A session file takes {schema.MOST_ANCHORS} anchors, and there are {len(session.anchor_vertices)}; "
+            "save the map as a case (.npz) instead."
+        )
+    arrays: dict[str, Floats] = {}
+    source = {"path": session.source} | ({"sha256": record.sha256} if record.sha256 else {})
+    plain: dict[str, Any] = {"format": FORMAT, "version": VERSION, "source": source}
+    plain |= _differing(session, Session(), tuple(schema.CHOICES))
+    if session.anchor_vertices:
+        plain["anchors"] = _anchor_rows(session)
+    if record.energy is not None and math.isfinite(record.energy):
+        plain["energy"] = record.energy
+    if record.legs:
+        plain["legs"] = [_leg_object(leg, session, index, arrays) for index, leg in enumerate(record.legs)]
+    if record.map is not None:
+        arrays[MAP] = record.map
+    return plain, arrays
+
+
+def _differing(session: Session, base: Session, names: tuple[str, ...]) -> dict[str, Any]:
+    values = {name: getattr(session, name) for name in names}
+    return {name: _plain(value) for name, value in values.items() if value != getattr(base, name)}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return list(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return dict(value) if isinstance(value, Mapping) else value
+
+
+def _anchor_rows(session: Session) -> list[list[Any]]:
+    count = len(session.anchor_vertices)
+    weights = session.anchor_weights or (math.inf,) * count
+    groups = session.anchor_groups or (-1,) * count
+    rows: list[list[Any]] = []
+    for vertex, target, weight, group in zip(session.anchor_vertices, session.anchor_targets, weights, groups, strict=True):
+        row = [vertex, list(target), None if math.isinf(weight) else weight, group]
+        rows.append(row if group >= 0 else row[:3] if row[2] is not None else row[:2])
+    return rows
+
+
+def _leg_object(leg: Leg, session: Session, index: int, arrays: dict[str, Floats]) -> dict[str, Any]:
+    plain: dict[str, Any] = {"from": leg.origin, "iterations": leg.iterations}
+    plain |= _differing(leg.choices, session, LEG_CHOICES)
+    if any(getattr(leg.choices, name) != getattr(session, name) for name in ANCHORS):
+        plain["anchors"] = _anchor_rows(leg.choices)
+    if leg.positions is not None and leg.origin != "previous":
+        arrays[f"leg-{index}"] = leg.positions
+    return plain
+
+
+# ---------------------------------------------------------------------------------------------- reading
+
+
+def parsed(text: str) -> dict[str, Any]:
+    """The JSON object of a text; `WorkbenchError` for anything else."""
+    try:
+        found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twins)
+    except RecursionError:
+        raise WorkbenchError("It is nested too deep to be a session.") from None
+    except json.JSONDecodeError as error:
+        raise WorkbenchError(f"It is no JSON (line {error.lineno}: {error.msg}).") from None
+    except ValueError:
+        raise WorkbenchError("It has a number with too many digits.") from None
+    if not isinstance(found, dict) or found.get("format") != FORMAT:
+        raise WorkbenchError(f"It is no session: a session says 'format': {FORMAT!r}.")
+    version = found.get("version")
+    if isinstance(version, bool) or not isinstance(version, int) or version < 1:
+        raise schema.refuse("version", version, "a whole number from 1 on")
+    if version > VERSION:
+        raise WorkbenchError(f"It was written by a newer program (version {version}, known is {VERSION}); update this one.")
+    return found
+
+
+def _no_constant(name: str) -> Any:
+    raise WorkbenchError(f"It has the number {name}; all numbers have to be finite.")
+
+
+def _no_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) != len(pairs):
+        raise WorkbenchError("It names one thing twice.")
+    return found
+
+
+def record_of(plain: Mapping[str, Any], arrays: Mapping[str, Floats]) -> SessionRecord:
+    """The session that a parsed object and the arrays beside it stand for. Raises `WorkbenchError` naming what is wrong."""
+    known = {"format", "version", "source", "anchors", "energy", "legs", *schema.CHOICES}
+    _only(plain, known, "The session")
+    source, sha256 = _source(plain.get("source"))
+    choices = {name: check(name, plain[name]) for name, check in schema.CHOICES.items() if name in plain}
+    session = Session(source=source, **choices, **_anchors(plain))
+    energy = schema.number("energy", plain["energy"], -1e300, 1e300) if "energy" in plain else None
+    objects = schema.rows("legs", plain.get("legs", []), LONGEST)
+    legs = tuple(_leg_of(item, session, index, arrays) for index, item in enumerate(objects))
+    found = arrays.get(MAP)
+    used = {MAP, *(f"leg-{index}" for index in range(len(legs)))}
+    _only(arrays, used, "The file")
+    if any(a.shape[1] != b.shape[1] or len(a) != len(b) for a in arrays.values() for b in arrays.values()):
+        raise WorkbenchError("Its maps are not all of one mesh.")
+    return SessionRecord(session, sha256, found, legs, energy)
+
+
+def _only(found: Mapping[str, Any], known: set[str], what: str) -> None:
+    unknown = next((name for name in found if name not in known), None)
+    if unknown is not None:
+        raise WorkbenchError(f"{what} has an entry {unknown[: schema.SHOWN]!r}, which is not known.")
+
+
+def _source(value: Any) -> tuple[str, str]:
+    if not isinstance(value, dict):
+        raise schema.refuse("source", value, "an object with path and sha256")
+    _only(value, {"path", "sha256"}, "The source")
+    return schema.path("source.path", value.get("path")), schema.digest("source.sha256", value.get("sha256", ""))
+
+
+def _anchors(plain: Mapping[str, Any]) -> dict[str, Any]:
+    return schema.anchors("anchors", plain["anchors"]) if "anchors" in plain else {}
+
+
+def _leg_of(plain: Any, session: Session, index: int, arrays: Mapping[str, Floats]) -> Leg:
+    what = f"Leg {index}"
+    if not isinstance(plain, dict):
+        raise schema.refuse(what, plain, "an object")
+    _only(plain, {"from", "iterations", "anchors", *LEG_CHOICES}, what)
+    origin = plain.get("from")
+    if not isinstance(origin, str) or origin not in get_args(Origin) or (origin == "previous") is (index == 0):
+        raise schema.refuse(f"{what}: from", origin, "start or map for the first leg, previous for the others")
+    positions = arrays.get(f"leg-{index}")
+    if origin == "map" and positions is None:
+        raise WorkbenchError(f"{what} begins at a map, and the file does not have it.")
+    if origin == "previous" and positions is not None:
+        raise WorkbenchError(f"{what} goes on from the one before, and the file has a map for it.")
+    changes = {name: schema.CHOICES[name](f"{what}: {name}", plain[name]) for name in LEG_CHOICES if name in plain}
+    choices = replace(session, **changes, **_anchors(plain))
+    return Leg(choices, origin, positions, schema.whole(f"{what}: iterations", plain.get("iterations")))  # type: ignore[arg-type]
+
+
+# ---------------------------------------------------------------------------------------------- writing
+
+
+def readable(value: Any, indent: str = "") -> str:
+    """JSON for people: an entry a line, except in what is flat or holds numbers."""
+    deeper = indent + "  "
+    if isinstance(value, dict) and value and not _is_short(value):
+        lines = [f"{deeper}{json.dumps(name)}: {readable(item, deeper)}" for name, item in value.items()]
+        return "{\n" + ",\n".join(lines) + f"\n{indent}}}"
+    if isinstance(value, list) and value and not _is_short(value):
+        return "[\n" + ",\n".join(deeper + readable(item, deeper) for item in value) + f"\n{indent}]"
+    return json.dumps(value, allow_nan=False, ensure_ascii=False)
+
+
+def _is_short(value: Any) -> bool:
+    """Whether it stands on one line: a row of numbers, or a few entries that hold nothing else."""
+    if isinstance(value, dict):
+        return len(value) <= 3 and not any(isinstance(item, dict | list) for item in value.values())
+    return (
+        len(value) <= 4
+        and all(not isinstance(x, dict) and (not isinstance(x, list) or _is_short(x)) for x in value)
+        and (not value or not isinstance(value[0], list))
+    )
