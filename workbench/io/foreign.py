@@ -78,7 +78,10 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
         notes = (note, *notes)
     if regions > 1:
         notes += (f"The {regions} regions that the file marks were taken as one mesh.",)
-    return mesh, notes, finite_rows(path, "of its points", points, len(points), (3,)) if has_map else None
+    if not has_map:
+        return mesh, notes, None
+    notes += ("The field `source` was taken for the source, and the points for a map of it.",)
+    return mesh, notes, finite_rows(path, "of its points", points, len(points), (3,))
 
 
 def _read(path: Path, place: str, module: str, size: int) -> tuple[Any, Blocks, int, Any] | None:
