@@ -225,6 +225,21 @@ def test_the_curves_are_the_rows(racing: Racing, qtbot: QtBot) -> None:
     np.testing.assert_array_equal(x, race.model.records[0].history.column("seconds"))
 
 
+@pytest.mark.parametrize("logarithmic", [False, True])
+def test_a_given_map_is_a_level_line_over_the_whole_axis(
+    racing: Racing, window: MainWindow, qtbot: QtBot, logarithmic: bool
+) -> None:
+    race = begin(racing, qtbot, NEWTON, Entrant("given", map=window.document.positions * 1.1))
+    finish(race, qtbot)
+    race.timeline.scales["x"].setChecked(logarithmic)
+    x, y = race.curves.curves["energy", 1].getOriginalDataset()
+    assert y[0] == y[1] == race.model.records[1].history.column("energy")[0]
+    (left, right), _ = race.curves._plots[0].getViewBox().viewRange()
+    low, high = (10.0**left, 10.0**right) if logarithmic else (left, right)
+    assert x[0] <= max(low, 0.0) and x[1] >= race.model.end_of("iteration") and high >= x[1]
+    assert "iteration" not in race.grid.panes[1].numbers.text()
+
+
 def test_the_slider_moves_all_views_back_and_live_brings_them_forth(racing: Racing, qtbot: QtBot) -> None:
     race = begin(racing, qtbot, NEWTON, DESCENT)
     finish(race, qtbot)

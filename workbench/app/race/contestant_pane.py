@@ -159,7 +159,8 @@ class ContestantPane(QWidget):
         shown = f"{mean:.6g}" if math.isfinite(mean) else "∞"
         # a map of an earlier moment, beside how its solver stands now
         iteration = f"{frame.iteration} of {record.iterations}" if frame.iteration < record.iterations else f"{frame.iteration}"
-        self.numbers.setText(f"iteration {iteration} · {frame.seconds:.2f} s · mean {shown}{inverted}")
+        spent = f"iteration {iteration} · {frame.seconds:.2f} s · " if frame.phase != "given" else ""
+        self.numbers.setText(f"{spent}mean {shown}{inverted}")
 
 
 _NOWHERE = np.empty((0, 3))

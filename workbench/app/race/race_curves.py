@@ -182,7 +182,8 @@ class RaceCurves(QWidget):
 
     def _set(self, item: pg.PlotDataItem, name: str, x: Floats, y: Floats, *, is_given: bool = False) -> None:
         if is_given and len(x) == 1:  # a map from elsewhere is a level line
-            x, y = np.array([x[0], max(self._end(), x[0] + 1e-3)]), np.repeat(y, 2)
+            end = max(self._end(), 1e-3)
+            x, y = np.array([1e-6 * end if self.is_logarithmic["x"] else 0.0, end]), np.repeat(y, 2)
         good = np.isfinite(y)
         if self.is_logarithmic["y"] and name != "inverted":
             good &= y > 0
