@@ -230,6 +230,14 @@ def test_anchors_are_placed_by_numbers(solid_window: MainWindow, qtbot: QtBot) -
     angles = np.unwrap([turned_angle(start, targets, np.eye(3)[axis]) for targets in sent])
     assert angles[-1] == pytest.approx(3.0 * math.pi), "one and a half times round"
     assert np.abs(np.diff(angles, prepend=0.0)).max() < math.pi / 2
+    dialog.places[0].setValue(dialog.places[0].value() + 0.25)
+    dialog.angle.setValue(90.0)
+    dialog.apply()
+    qtbot.waitUntil(lambda: not window.desk.is_turning)
+    centre = window.document.anchors.targets_of(vertices).mean(axis=0)
+    np.testing.assert_allclose(centre, start.mean(axis=0) + [0.25, 0.0, 0.0], atol=1e-5)
+    assert dialog.angle.value() == 0.0
+    assert dialog.places[0].text() == f"{centre[0]:.6g}", "it shows where they are now"
     dialog.reject()
 
 

@@ -80,12 +80,12 @@ class AnchorDesk(QObject):
         if part > self._best + PROGRESS:
             self._best, self._best_at = part, time.monotonic()
         waits = part < 1.0 and (self._is_held or time.monotonic() - self._best_at < PATIENCE)
-        self._send(self._wanted.part(part), self._is_held or waits, at)
         if waits:
             self._timer.start()
-            return
-        self._timer.stop()
-        if part < 1.0:
+        else:
+            self._timer.stop()
+        self._send(self._wanted.part(part), self._is_held or waits, at)
+        if part < 1.0 and not waits:
             self.given_up.emit(math.degrees(part * self._wanted.angle))
 
     def _send(self, motion: RigidMotion, is_held: bool, at: float | None) -> None:
