@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,7 +64,8 @@ def test_edge_lengths_that_do_not_fit_are_refused_at_once(monkeypatch: pytest.Mo
 
 
 @needs_mesher
-def test_a_filled_blob_is_a_solid_of_its_volume() -> None:
+def test_a_filled_blob_is_a_solid_of_its_volume(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
     blob = make_sample("blob", 800)
     said: list[str] = []
     solid = fill_surface(blob, FillOptions(edge_length=0.5), tell=said.append)
@@ -74,6 +76,7 @@ def test_a_filled_blob_is_a_solid_of_its_volume() -> None:
     inside = float(np.linalg.det(blob.vertices[blob.simplices]).sum())
     corners = solid.vertices[solid.simplices]
     assert np.linalg.det(corners[:, 1:] - corners[:, :1]).sum() == pytest.approx(inside, rel=0.02)
+    assert not list(tmp_path.iterdir()), "the mesher leaves nothing where one works"
 
 
 @needs_mesher

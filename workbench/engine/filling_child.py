@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from tempfile import TemporaryDirectory, gettempdir
 
 import numpy as np
 
@@ -33,21 +34,30 @@ def fill_main(connection: Connection) -> None:
     _be_silent()
     _bound_memory(job.memory_limit)
     try:
-        from pytetwild import tetrahedralize
-
-        answer = tetrahedralize(
-            np.array(job.vertices),
-            job.triangles.astype(np.int32),
-            edge_length_abs=job.edge_length,
-            epsilon=job.envelope,
-            num_threads=1,
-        )
+        answer = _fill(job)
     except MemoryError:
         connection.send("The mesher ran out of memory; ask for longer edges.")
     except Exception as error:
         connection.send(f"The mesher failed ({type(error).__name__}: {error}); try another edge length.")
     else:
         connection.send(tuple(np.array(part) for part in answer))
+
+
+def _fill(job: FillJob) -> tuple[Floats, Integers]:
+    from pytetwild import tetrahedralize
+
+    with TemporaryDirectory() as folder:  # the mesher leaves files of its own in the working directory
+        os.chdir(folder)
+        try:
+            return tetrahedralize(
+                np.array(job.vertices),
+                job.triangles.astype(np.int32),
+                edge_length_abs=job.edge_length,
+                epsilon=job.envelope,
+                num_threads=1,
+            )
+        finally:
+            os.chdir(gettempdir())
 
 
 def _be_silent() -> None:
