@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 
@@ -128,3 +129,21 @@ def test_report_measure_and_signature_of_a_solved_solid_agree(cli, bent: Path, t
     assert (told["input"]["kind"], told["input"]["simplices"]) == ("volume", 48)
     signature = cli("signatures", out, bent, "--json").json["maps"]
     assert signature[0]["mean"] == pytest.approx(found["measures"]["average-singular-value"]["area_weighted_mean"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("distortion", "settings", "name"),
+    [
+        ("sum(sigma^2) + t/det", ["t=0.5"], "sum(sigma^2) + t/det [t=0.5]"),
+        ("lp-gauge", ["p=4"], "lp-gauge [p=4]"),
+        ("arap", [], "arap"),
+    ],
+)
+def test_what_was_minimised_is_a_field_of_the_file(cli, bent: Path, tmp_path: Path, distortion, settings, name) -> None:
+    out, report = tmp_path / "out.vtu", tmp_path / "r.json"
+    options = [item for setting in settings for item in ("--set", setting)]
+    given = ("solve", bent, "--distortion", distortion, *options, "--iterations", 1, "--out", out, "--report", report)
+    assert cli(*given).status in (0, 1)
+    fields = meshio.vtu.read(str(out)).cell_data
+    energy = fields[name][0] @ fields["source_volume"][0]
+    assert energy == pytest.approx(strict_json(report.read_text())["energy"], rel=1e-11)

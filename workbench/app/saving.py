@@ -82,6 +82,8 @@ class Saver(QObject):
 
 def write(request: SaveRequest) -> None:
     """Write a map as the command line does. Raises `WorkbenchError`."""
+    from workbench.core.distortion import Distortion
+    from workbench.core.measure import Measure
     from workbench.io.opening import open_source
     from workbench.io.write import write_map
 
@@ -95,6 +97,7 @@ def write(request: SaveRequest) -> None:
         opened.mesh,
         request.snapshot.positions,
         opened.kind,
+        others=(Measure.of_distortion(Distortion.resolve(session.distortion, session.distortion_parameters)),),
         anchor_vertices=request.anchor_vertices,
         anchor_targets=request.anchor_targets,
     )

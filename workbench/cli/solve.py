@@ -120,6 +120,7 @@ def _write(
     prepared: Prepared, carried: Carried | None, options: argparse.Namespace, result: RunResult, fault: str
 ) -> dict[str, Any]:
     from workbench.cli.report import build_report, history_text
+    from workbench.core.measure import Measure
     from workbench.io.atomic import write_text
     from workbench.io.write import write_map
 
@@ -130,6 +131,7 @@ def _write(
         opened.mesh,
         result.state.positions,
         opened.kind,
+        others=(Measure.of_distortion(prepared.problem.distortion),),
         anchor_vertices=anchors.vertices,
         anchor_targets=anchors.targets,
     )

@@ -59,6 +59,16 @@ class Measure:
         """The measure of a text with parameter values in any order."""
         return cls(text, tuple(sorted((name, float(value)) for name, value in (parameters or {}).items())))
 
+    @classmethod
+    def of_distortion(cls, distortion: Distortion) -> Measure:
+        """The measure of what is minimised: a registered distortion, with the values that differ, or a typed formula."""
+        from workbench.core.registry import registry
+
+        known = registry().distortions.get(distortion.id)
+        usual = {} if known is None else known.parameter_values
+        values = {name: value for name, value in distortion.parameter_values.items() if usual.get(name) != value}
+        return cls.of(distortion.formula if known is None else distortion.id, values)
+
     @property
     def id(self) -> str:
         """Name of its values: the text, and the parameters where there are any."""

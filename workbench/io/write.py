@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
+from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.plane_frame import into_plane_of
@@ -39,6 +40,7 @@ def write_map(
     kind: Kind,
     *,
     fields: Mapping[str, ArrayLike] | None = None,
+    others: Iterable[Measure] = (),
     anchor_vertices: ArrayLike | None = None,
     anchor_targets: ArrayLike | None = None,
 ) -> None:
@@ -46,7 +48,7 @@ def write_map(
 
     OBJ: for parameterize the vertices and faces of the file as they were, polygons too, and the map as `vt`; for
     plane and volume the map as `v` (in the plane of the file where that was a plane in space). npz: `V S X anchors
-    targets`. VTU: the map, with `fields` on the simplices. MEDIT and Gmsh (2.2, binary): the map alone. CSV: a row a
+    targets`. VTU: the map, with fields on the simplices. MEDIT and Gmsh (2.2, binary): the map alone. CSV: a row a
     simplex, a column a field.
     Numbers have 17 significant digits: they read back to the same values.
 
@@ -55,7 +57,8 @@ def write_map(
     file_mesh : Mesh               as read
     source_mesh : Mesh             as solved on, after fixes: where these dropped simplices, what was kept is written
     positions : (n, d) float64     of the vertices of `source_mesh`
-    fields : name -> (m,)          numbers a simplex, for VTU and CSV; where none are given, those of `simplex_table`
+    fields : name -> (m,)          numbers a simplex, for VTU and CSV; where none are given, those of `simplex_table`,
+    others : Measure ...           with these beside them, as the formula that is minimised
     anchor_vertices, anchor_targets : (k,) int64, (k, d) float64     for npz
 
     Raises `WorkbenchError` for an ending that is not known, or a place that cannot be written.
@@ -67,7 +70,8 @@ def write_map(
     elif ending == ".npz":
         _write_npz(path, source_mesh, positions, anchor_vertices, anchor_targets)
     elif ending in (".vtu", ".csv"):
-        write_simplices(path, source_mesh, positions, simplex_table(source_mesh, positions) if fields is None else fields)
+        columns = simplex_table(source_mesh, positions, others) if fields is None else fields
+        write_simplices(path, source_mesh, positions, columns)
     elif ending in (".mesh", ".msh"):
         _write_by_meshio(path, source_mesh, positions)
     else:
