@@ -22,6 +22,7 @@ from workbench.cli import (
     measure,
     open_window,
     refine,
+    replay,
     signatures,
     solve,
 )
@@ -36,6 +37,7 @@ COMMANDS = {
     "open": open_window,
     "list": listing,
     "solve": solve,
+    "run": replay,
     "compare": compare,
     "measure": measure,
     "formula": formula,

@@ -230,7 +230,7 @@ class EngineLoop:
         distortion = Distortion.resolve(choices.distortion, choices.parameters)
         problem = self._problem.with_distortion(distortion, choices.allow_inversions)
         self._configured_solver(command.solver, problem)
-        held.as_anchors.check(problem.mesh.vertex_count, problem.dimension)
+        held.anchors.check(problem.mesh.vertex_count, problem.dimension)
         self._choices, self._solver_choice, self._anchors, self._problem = choices, command.solver, held, problem
         self._running, self._steps_left, self._boundary_positions, self._seconds = False, 0, None, 0.0
         self._start_from(command.positions, command.iteration)
@@ -330,7 +330,7 @@ class EngineLoop:
         assert self._mesh is not None
         anchors = Anchors.none(self._mesh.dimension)
         if self._anchors is not None and len(self._anchors.vertices):
-            anchors = self._anchors.as_anchors
+            anchors = self._anchors.anchors
         if self._boundary_positions is not None:
             anchors = anchors.with_added(self._boundary(), self._boundary_positions)
         return anchors

@@ -95,7 +95,7 @@ class SetAnchors(Command):
         object.__setattr__(self, "weights", frozen(self.weights))
 
     @property
-    def as_anchors(self) -> Anchors:
+    def anchors(self) -> Anchors:
         """Raises `WorkbenchError` where they contradict themselves."""
         return Anchors(self.vertices, self.targets, self.weights, self.groups)  # type: ignore[arg-type]
 

@@ -141,9 +141,9 @@ def _repeat(
         if on_row is not None:
             on_row(row)
 
-    positions = record.map
+    positions, iteration = record.map, 0
     initial: State | None = None
-    iteration = 0
+    status = Status.INTERRUPTED
     for leg in record.legs:
         leg_problem = _problem_of_leg(problem, leg)
         if leg.origin != "previous":
@@ -153,10 +153,11 @@ def _repeat(
         leg_problem = _with_boundary(leg_problem, leg.choices, positions)
         first, last = _iterated(leg, leg_problem, State(positions, iteration), interrupt, begin, note)
         initial = initial or first
-        positions, iteration = last.positions, last.iteration
+        positions, iteration, status = last.positions, last.iteration, last.status
     assert positions is not None
     problem = _with_boundary(problem, record.session, positions).with_criteria(Criteria(record.session.tolerance))
     problem, last = state_without_past(solver, problem, State(positions, iteration))
+    last = replace(last, status=status) if last.status is Status.RUNNING else last
     farthest = None if record.map is None else float(np.linalg.norm(positions - record.map, axis=1).max())
     total = time.perf_counter() - begin
     if not rows:
@@ -188,18 +189,20 @@ def _iterated(
     problem, state = state_without_past(solver, problem, state)
     first = state
     note(history_row(problem, state, time.perf_counter() - begin))
-    end, idle = state.iteration + leg.iterations, 0
+    end, idle, ended = state.iteration + leg.iterations, 0, Status.RUNNING
     while state.iteration < end and idle < MOST_IDLE and not interrupt():
         following = guarded_step(solver, problem, state, interrupt)
         if following.iteration > state.iteration:
             idle = 0
             note(history_row(problem, following, time.perf_counter() - begin))
         elif following.status is not Status.RUNNING:
+            ended = following.status
             break
         else:
             idle += 1
+        ended = solver.terminate(problem, following)
         state = replace(following, status=Status.RUNNING)
-    return first, state
+    return first, replace(state, status=Status.INTERRUPTED if ended is Status.RUNNING else ended)
 
 
 def _initializer(session: Session, opened: OpenedSource, solver: Solver) -> str:

@@ -30,7 +30,7 @@ def leg_of(report: LegBegun) -> Leg:
 
 def anchor_fields(held: SetAnchors) -> dict[str, Any]:
     """The anchors of a command as fields of a session."""
-    groups = held.as_anchors.groups
+    groups = held.anchors.groups
     return {
         "anchor_vertices": tuple(held.vertices.tolist()),
         "anchor_targets": tuple(map(tuple, held.targets.tolist())),
