@@ -270,7 +270,7 @@ def _problem_of(command: StartRace) -> Problem:
 
 
 def _anchors(held: SetAnchors, dimension: int) -> Anchors:
-    return Anchors(held.vertices, held.targets, held.weights) if len(held.vertices) else Anchors.none(dimension)
+    return held.anchors if len(held.vertices) else Anchors.none(dimension)
 
 
 def _distortion(choices: SetProblem) -> Distortion:

@@ -177,8 +177,9 @@ class Racing(QObject):
 
     def _anchors(self, dimension: int) -> SetAnchors:
         """Those of the document, all hard."""
-        vertices = self._document.anchors.vertices
-        return SetAnchors(vertices, self._document.anchors.target_array(dimension), np.full(len(vertices), np.inf))
+        anchors = self._document.anchors
+        weights = np.full(len(anchors), np.inf)
+        return SetAnchors(anchors.vertices, anchors.target_array(dimension), weights, groups=anchors.group_numbers)
 
     def _race_closed(self) -> None:
         race, self.race = self.race, None
