@@ -12,7 +12,9 @@ from pytestqt.qtbot import QtBot
 
 pytest.importorskip("PySide6.QtWidgets", exc_type=ImportError)
 
+import numpy as np
 from PySide6.QtCore import QEvent, QPoint, Qt
+from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -148,6 +150,13 @@ def pixel_of(view: MeshView, vertex: int) -> QPoint:
     assert geometry is not None
     x, y = view.project(geometry.points[[vertex]])[0]
     return QPoint(round(x), round(y))
+
+
+def pixels_of(view: MeshView) -> np.ndarray:
+    """Colours (height, width, 3) of what a view shows, with its anchors."""
+    image = view.picture().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+    return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
 
 
 class Hand:

@@ -7,10 +7,10 @@ from collections import Counter
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from tests.app.conftest import pixels_of
 from workbench.app.main_window import MainWindow
 from workbench.app.quantities import Quantity
 from workbench.app.simplex_brush import SimplexBrush
@@ -26,9 +26,7 @@ DETERMINANT = Quantity("det", "Determinant", "", "det J", 0.0)
 
 def brushed_pixels(view: MeshView) -> int:
     """Pixels of the line round what is brushed."""
-    image = view.picture().toImage().convertToFormat(QImage.Format.Format_RGB888)
-    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
-    colours = rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).astype(int)
+    colours = pixels_of(view)
     return int((np.abs(colours - np.array(BRUSH) * 255).max(axis=2) < 40).sum())
 
 

@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 from scipy.spatial import ConvexHull
 
-from tests.app.conftest import Hand, pixel_of
+from tests.app.conftest import Hand, pixel_of, pixels_of
 from tests.app.fake_engine import solid_mesh
 from workbench.app.main_window import MainWindow
 from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces, faces_between
@@ -214,6 +214,34 @@ def test_a_cut_shows_the_same_tetrahedra_in_every_view_and_ends(solid_window: Ma
     for view in views:
         assert np.array_equal(view.geometry_shown.triangles, window.volume.solid.boundary.triangles)
         assert not view.surface.ghost.actor.GetVisibility()
+
+
+def test_the_veil_lies_over_gaps_and_not_over_colours(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window, view = solid_window, solid_window.target.view
+    eye = tuple(view.camera.axes[2].tolist())
+    pictures = []
+    for opacity in (0.0, 0.5):  # what is taken away lies behind what is left
+        window.volume.choose(is_cut=True, normal=eye, place=0.5, is_flipped=True, is_exact=False, ghost=opacity)
+        qtbot.waitUntil(lambda o=opacity: bool(view.surface.ghost.actor.GetVisibility()) == (o > 0))
+        QTest.qWait(60)
+        pictures.append(pixels_of(view))
+    is_solid = np.abs(pictures[0] - pictures[0][2, 2]).max(axis=2) > 25
+    has_changed = np.abs(pictures[1] - pictures[0]).max(axis=2) > 6
+    assert has_changed[~is_solid].sum() > 500, "the rest of the solid is seen through the veil"
+    assert has_changed[is_solid].mean() < 0.03
+    window.volume.choose(ghost=VolumeLook.ghost)
+
+
+def test_nothing_left_is_no_fault(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window, view = solid_window, solid_window.target.view
+    for change in ({"threshold": 1e9}, {"is_cut": True, "is_exact": True}, {"spread": 0.5}):
+        window.volume.choose(**change)
+        window.set_target_style("symmetric-dirichlet")
+        qtbot.waitUntil(lambda: not len(view.geometry_shown.triangles))
+        assert view.simplex_at((50.0, 50.0)) == -1 and view.vertex_at((50.0, 50.0)) == -1
+        view.grab()
+    window.volume.show_all()
+    qtbot.waitUntil(lambda: len(view.geometry_shown.triangles) > 0)
 
 
 def test_a_key_cuts_across_the_line_of_sight_and_another_shows_all(solid_window: MainWindow, qtbot: QtBot) -> None:

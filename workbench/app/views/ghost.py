@@ -13,6 +13,8 @@ from workbench.core.arrays import Integers
 
 DARK_VEIL = (0.92, 0.95, 1.0)
 """On black the same opacity of a mean grey would not be seen."""
+FARTHER = 60.0
+"""How far it is put behind faces in the same place."""
 
 
 class Ghost:
@@ -24,6 +26,10 @@ class Ghost:
         self._shown: Integers | None = None
         mapper = mapper_of(self._polydata)
         mapper.ScalarVisibilityOff()
+        # a little farther from the eye than faces that are drawn: it lies over gaps, not over their colours
+        mapper.SetResolveCoincidentTopologyToPolygonOffset()
+        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, FARTHER)
+        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0.0, FARTHER)
         self.actor: Any = actor_of(mapper)
         self.actor.PickableOff()
         style = self.actor.GetProperty()
