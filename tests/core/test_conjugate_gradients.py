@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from tests.conftest import grid, tetrahedral_grid
-from workbench.core import large_solid, linear_solver
+from workbench.core import linear_solver
 from workbench.core.arrays import Floats
 from workbench.core.conjugate_gradients import ConjugateGradients
 from workbench.core.constraints import Anchors, LinearConstraints
 from workbench.core.errors import WorkbenchError
-from workbench.core.large_solid import LargeSolid
 from workbench.core.linear_back_end import SingularMatrixError
 from workbench.core.linear_solver import CHOICE, make_linear_solver
 from workbench.core.newton_system import NewtonSystem
@@ -153,38 +152,9 @@ def test_it_is_chosen_for_large_solids_and_for_nothing_else(monkeypatch) -> None
     monkeypatch.setattr(linear_solver, "LARGE_SOLID", 3 * CUBE.vertex_count - 1)
     solid, plane = problem_of(CUBE)[0].density, problem_of(grid(12))[0].density
     assert plane.pattern.size > linear_solver.LARGE_SOLID
-    assert isinstance(make_linear_solver(solid.pattern), LargeSolid)
-    assert not isinstance(make_linear_solver(solid.scalar_pattern), LargeSolid)
-    assert not isinstance(make_linear_solver(plane.pattern), LargeSolid)
-
-
-@pytest.mark.parametrize("affordable", [True, False])
-def test_what_is_too_hard_is_factorised_from_then_on(monkeypatch, affordable: bool) -> None:
-    problem, x = problem_of(CUBE)
-    pattern, values = problem.density.pattern, problem.evaluate(x, 2).hessian_values.copy()
-    values[pattern.diagonal] *= 1.0 + 1e-6
-    if not affordable:
-        monkeypatch.setattr(large_solid, "FACTORABLE", pattern.size - 1)
-    made = []
-
-    def make_direct(pattern: HessianPattern):
-        made.append(make_linear_solver(pattern, "multifrontal"))
-        return made[-1]
-
-    solver = LargeSolid(pattern, make_direct)
-    rhs = np.random.default_rng(0).normal(size=(pattern.size, 2))
-    solver.factorise(values)
-    solver.solve(rhs)
-    assert not solver.is_direct  # easy enough
-    solver._iterative.most = 3
-    for scale in (1.0, 2.0):
-        solver.factorise(scale * values)
-        solution = solver.solve(rhs)
-        exact = all(
-            np.allclose(pattern.multiply(scale * values, s), b, atol=1e-6) for s, b in zip(solution.T, rhs.T, strict=True)
-        )
-        assert exact == solver.is_direct == affordable
-    assert len(made) == affordable
+    assert isinstance(make_linear_solver(solid.pattern), ConjugateGradients)
+    assert not isinstance(make_linear_solver(solid.scalar_pattern), ConjugateGradients)
+    assert not isinstance(make_linear_solver(plane.pattern), ConjugateGradients)
 
 
 def test_a_run_ends_at_the_same_minimum() -> None:

@@ -21,8 +21,8 @@ from workbench.core.pattern import HessianPattern
 
 TOLERANCE = 1e-3
 """Residual in the norm of the preconditioner's inverse at which a solution is good enough, as a part of that at 0."""
-MOST_ITERATIONS = 500
-"""Beyond, the solution is taken as it is: a factorisation would have been done by now."""
+MOST_ITERATIONS = 1000
+"""Beyond, the solution is taken as it is: as a direction it descends all the same."""
 LEAST_PIVOT = 0.05
 """Part of a pivot of A's diagonal block below which the incomplete one is not trusted: A's own block stands in."""
 

@@ -13,7 +13,6 @@ from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, an
 from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.conjugate_gradients import ConjugateGradients
 from workbench.core.errors import WorkbenchError
-from workbench.core.large_solid import LargeSolid
 from workbench.core.linear_back_end import LinearSolver, SingularMatrixError
 from workbench.core.pattern import HessianPattern
 
@@ -145,9 +144,12 @@ BACK_ENDS: dict[str, type[LinearSolver]] = {
 
 CHOICE = "WORKBENCH_LINEAR_SOLVER"
 """Environment variable that names a back end."""
-LARGE_SOLID = 50_000
-"""Unknowns of a solid above which conjugate gradients beat a factorisation on two cores, in time and all the more in memory:
-half the time at 58 k unknowns, a tenth at 255 k, where a factor takes 5 GB more (python -m tests.benchmarks.tetrahedra).
+LARGE_SOLID = 150_000
+"""Unknowns of a solid above which conjugate gradients are taken.
+
+On compact solids they are twice as fast as a factorisation at 58 k unknowns already, ten times at 255 k, where a factor takes
+5 GB more (python -m tests.benchmarks.tetrahedra). But long thin limbs need many times the iterations, and a hand that drags
+is better answered by a factor that is kept: so they wait until even then a factor would be the slower.
 """
 
 
@@ -179,7 +181,6 @@ def make_linear_solver(pattern: HessianPattern, name: str = "") -> LinearSolver:
     if name:
         check_back_end(name)
         return BACK_ENDS[name](pattern)
-    direct = BACK_ENDS[available_back_ends()[0]]
     if pattern.dimension == 3 and pattern.size > LARGE_SOLID:
-        return LargeSolid(pattern, direct)
-    return direct(pattern)
+        return ConjugateGradients(pattern)
+    return BACK_ENDS[available_back_ends()[0]](pattern)
