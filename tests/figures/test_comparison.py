@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.engine.test_race import problem_on
+from workbench.core.jacobians import signed_singular_values
 from workbench.core.registry import registry
 from workbench.engine.race import Contestant, Limits, Race
 from workbench.figures.contact_sheet import LAST, contact_sheet, sheet_columns
@@ -86,3 +87,21 @@ def test_inverted_simplices_are_yellow_on_top(square):
     assert area > 0
     left, right = cell.get_xlim()
     assert yellow.sum() * ((right - left) / image.shape[1]) ** 2 == pytest.approx(area, rel=0.25)
+
+
+def test_the_scale_reaches_the_few_where_nearly_all_are_at_the_least(square):
+    rest = square.vertices[:, :2].copy()
+    moved = rest.copy()
+    moved[0] -= 0.4 * (rest[1] - rest[0])
+
+    def ends(*maps: np.ndarray) -> tuple[float, float]:
+        race = Race(problem_on(square, reach=0.0), rest, [Contestant(str(row), None, x) for row, x in enumerate(maps)])
+        problem = race.racers[0].problem
+        return contact_sheet(problem, sheet_columns(race, (LAST,)), (LAST,)).axes[-1].get_xlim()
+
+    problem = problem_on(square, reach=0.0)
+    worst = problem.distortion.value(signed_singular_values(problem.elements, moved)).max()
+    assert worst > 4.1
+    assert ends(moved, *[rest] * 20) == pytest.approx((4.0, worst))  # far fewer than a hundredth
+    low, high = ends(rest, rest)
+    assert high - low >= 1e-3 * low  # what differs by rounding alone is one colour
