@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.background import Background
@@ -18,8 +20,9 @@ from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 from workbench.core.carried_surface import CarriedSurface, carry
 from workbench.core.mesh import Mesh
+from workbench.core.samples import make_sample
 from workbench.engine.carrying_kernels import compile_carrying
-from workbench.io.opening import read_source
+from workbench.io.opening import SAMPLE, read_source
 from workbench.io.write import write_surface
 
 
@@ -67,7 +70,10 @@ class CarriedView(QObject):
     # ------------------------------------------------------------------------------------------ reading and writing
 
     def read(self, source: str) -> None:
-        """Carry the surface of a file, or `sample:ID`; places are found on a thread while the window goes on."""
+        """Carry the surface of a file, or `sample:ID`; places are found on a thread while the window goes on.
+
+        A sample lies in the solid bar, and is stretched into the box of any other solid.
+        """
         mesh = self._document.mesh
         if mesh is None or not self.is_possible or self.is_busy:
             return
@@ -75,7 +81,8 @@ class CarriedView(QObject):
 
         def work() -> CarriedSurface:
             compile_carrying()
-            return carry(read_source(source).mesh, mesh)
+            surface = read_source(source).mesh
+            return carry(_into_box(surface, mesh) if source.startswith(SAMPLE) else surface, mesh)
 
         self._begin(work, lambda found: self._take(found, mesh))
 
@@ -185,3 +192,12 @@ class CarriedView(QObject):
         self.surface = None
         self.bar.hide()
         self._refresh()
+
+
+def _into_box(surface: Mesh, solid: Mesh) -> Mesh:
+    """A surface that lies in the solid bar, where it lies in the box of another solid."""
+    if surface.vertices.shape[1] != 3:
+        return surface  # no solid carries it
+    box, bar = solid.vertices, make_sample("bar-3d").vertices
+    shares = (surface.vertices - bar.min(axis=0)) / np.ptp(bar, axis=0)
+    return replace(surface, vertices=box.min(axis=0) + shares * np.ptp(box, axis=0))
