@@ -16,6 +16,9 @@ from workbench.core.formula import CompiledFormula, compile_formula, names_in_fo
 from workbench.core.method import KINDS, Kind, Parameter
 from workbench.core.tape import Tape
 
+KEPT_FENCES = 4
+"""Fenced variants of a distortion that are kept compiled."""
+
 
 @dataclass(frozen=True)
 class Distortion:
@@ -73,6 +76,10 @@ class Distortion:
         return {}
 
     @cached_property
+    def _fenced(self) -> dict[float, Distortion]:
+        return {}
+
+    @cached_property
     def _kinked_at_zero(self) -> dict[int, bool]:
         return {}
 
@@ -109,6 +116,14 @@ class Distortion:
         if not self.compiled(dimension).has_logarithm:
             return None
         return replace(self, power=power, barrier=self.has_barrier(dimension))
+
+    def fenced(self, fence: float) -> Distortion:
+        """D + fence/det, a barrier; the last few are kept, as anchors that move ask for the same one again and again."""
+        if fence not in self._fenced:
+            while len(self._fenced) >= KEPT_FENCES:
+                self._fenced.pop(next(iter(self._fenced)))
+            self._fenced[fence] = replace(self, fence=fence, barrier=True)
+        return self._fenced[fence]
 
     def is_kinked_at_zero(self, dimension: int) -> bool:
         """Whether D, like a norm, grows at a finite rate from where all singular values vanish, and has no barrier."""

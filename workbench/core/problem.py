@@ -190,7 +190,7 @@ class Problem:
 
     def fenced(self, fence: float) -> Problem:
         """The same problem with fence/det added to the distortion; see `needs_fence`."""
-        distortion = replace(self.distortion, fence=fence, barrier=True)
+        distortion = self.distortion.fenced(fence)
         return replace(self, density=self.density.with_distortion(distortion, self.density.allow_inversions))
 
     def with_criteria(self, criteria: Criteria) -> Problem:

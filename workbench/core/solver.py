@@ -144,19 +144,23 @@ def restarted(problem: Problem, state: State) -> State:
     )
 
 
+def characteristic_curvature(problem: Problem) -> float:
+    """Spectral norm of the D_ij at the identity, or a tenth aside where D has a kink; where they vanish, norm of the D_i."""
+    distortion, n = problem.distortion, problem.dimension
+    sigma = np.linspace(1.1, 0.9, n)[None, :] if problem.density.has_kinks else np.ones((1, n))
+    curvature = float(np.linalg.norm(distortion.hessian(sigma)[0], 2))
+    if curvature < 1e-12:
+        curvature = float(np.linalg.norm(distortion.gradient(sigma)))
+    return max(curvature, 1e-30)
+
+
 def characteristic_gradient(problem: Problem) -> float:
     """Scale of the gradient norm, so that a tolerance means the same on every mesh and for every distortion.
 
-    The spectral norm of the D_ij at the identity, or a tenth aside where D has a kink, times the norm over the vertices of
-    what bounds their stars: lengths in the plane, areas in space. The norm of the D_i stands in where the D_ij vanish, as for
-    a sum of singular values. Source: Zhu, Bridson, Kaufman 2018, section 6.
+    The characteristic curvature times the norm over the vertices of what bounds their stars: lengths in the plane, areas in
+    space. Source: Zhu, Bridson, Kaufman 2018, section 6.
     """
-    elements, distortion = problem.elements, problem.distortion
-    n = elements.dimension
-    opposite = n * np.linalg.norm(elements.hat_gradients, axis=2) * elements.rest_measures[:, None]
+    elements = problem.elements
+    opposite = problem.dimension * np.linalg.norm(elements.hat_gradients, axis=2) * elements.rest_measures[:, None]
     star = np.bincount(elements.simplices.reshape(-1), opposite.reshape(-1), elements.vertex_count)
-    sigma = np.linspace(1.1, 0.9, n)[None, :] if problem.density.has_kinks else np.ones((1, n))
-    density = float(np.linalg.norm(distortion.hessian(sigma)[0], 2))
-    if density < 1e-12:
-        density = float(np.linalg.norm(distortion.gradient(sigma)))
-    return max(density, 1e-30) * float(np.linalg.norm(star))
+    return characteristic_curvature(problem) * float(np.linalg.norm(star))

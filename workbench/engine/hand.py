@@ -16,6 +16,7 @@ from workbench.core.anchor_steps import (
     respond_with_last_factor,
 )
 from workbench.core.arrays import Floats
+from workbench.core.fence import along_faint_fence
 from workbench.core.problem import Problem
 from workbench.core.state import State
 from workbench.core.threads import one_thread
@@ -52,6 +53,9 @@ class HandFollower:
 
     def step(self, problem: Problem, state: State) -> State | None:
         """The next map, None where nothing is to be done before the next event."""
+        return along_faint_fence(problem, state, self._next)
+
+    def _next(self, problem: Problem, state: State) -> State | None:
         if self._corrector.serves(problem):
             with one_thread():  # the corrector and the drawing have the other core
                 return self._with_corrector(problem, state)
