@@ -72,7 +72,7 @@ class CarriedView(QObject):
     def read(self, source: str) -> None:
         """Carry the surface of a file, or `sample:ID`; places are found on a thread while the window goes on.
 
-        A sample lies in the solid bar, and is stretched into the box of any other solid.
+        A sample lies in the solid bar, and is scaled into the box of any other solid.
         """
         mesh = self._document.mesh
         if mesh is None or not self.is_possible or self.is_busy:
@@ -195,9 +195,9 @@ class CarriedView(QObject):
 
 
 def _into_box(surface: Mesh, solid: Mesh) -> Mesh:
-    """A surface that lies in the solid bar, where it lies in the box of another solid."""
+    """A surface that lies in the solid bar, scaled and moved into the middle of the box of another solid."""
     if surface.vertices.shape[1] != 3:
         return surface  # no solid carries it
-    box, bar = solid.vertices, make_sample("bar-3d").vertices
-    shares = (surface.vertices - bar.min(axis=0)) / np.ptp(bar, axis=0)
-    return replace(surface, vertices=box.min(axis=0) + shares * np.ptp(box, axis=0))
+    box, bar = (np.stack([v.min(axis=0), v.max(axis=0)]) for v in (solid.vertices, make_sample("bar-3d").vertices))
+    scale = float((np.ptp(box, axis=0) / np.ptp(bar, axis=0)).min())
+    return replace(surface, vertices=box.mean(axis=0) + scale * (surface.vertices - bar.mean(axis=0)))
