@@ -312,6 +312,25 @@ def test_pinning_the_boundary_of_a_solid_leaves_its_inside_free(solid_window: Ma
     window.document.clear_anchors()
 
 
+def test_a_plane_of_the_target_stays_a_plane_there_while_the_map_moves(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window, view = solid_window, solid_window.target.view
+    window.document.pin(np.array([0, 40, 111]))
+    window.volume.choose(is_cut=True, is_exact=True, cuts_target=True, normal=(0.6, 0.0, 0.8), place=0.5)
+    window.document.move_anchor(0, window.document.mesh.vertices[0] - np.array([0.5, 0.2, 0.0]), False)
+    qtbot.waitUntil(lambda: abs(window.document.positions[0] - window.document.mesh.vertices[0]).max() > 0.4)
+    qtbot.waitUntil(lambda: view.geometry_shown.faces.made is not None)
+    geometry, normal = view.geometry_shown, np.array([0.6, 0.0, 0.8])
+    heights = geometry.points[geometry.vertex_count :] @ normal
+    assert np.ptp(heights) < 1e-5
+    corners = geometry.points[geometry.triangles] @ normal
+    assert corners.max() < heights.max() + 1e-5
+    in_source = window.source.view.geometry_shown
+    assert np.array_equal(in_source.triangles, geometry.triangles), "the same pieces on both sides"
+    assert np.ptp(in_source.points[in_source.vertex_count :] @ normal) > 1e-3
+    window.volume.show_all()
+    window.volume.choose(cuts_target=False)
+
+
 def test_turning_one_view_turns_all(solid_window: MainWindow, qtbot: QtBot) -> None:
     window = solid_window
     Hand(window.source.view).drag(QPoint(6, 6), QPoint(60, 20))

@@ -77,6 +77,7 @@ class Reporter(QObject):
             self._window.status.say(f"The engine is ready ({report.seconds:.1f} s).")
 
     def _progress(self, report: Progress) -> None:
+        self._said = ""  # what is said of the next map takes this sentence's place
         if 0 <= report.fraction < 1 or report.fraction < 0:
             self._window.progress.begin(report.sentence, report.fraction)
             self._window.status.say(report.sentence)
