@@ -471,17 +471,20 @@ def test_the_verdict_is_on_maps_that_hold_their_anchors_and_one_energy(square: M
     assert "Nobody" in verdict([lags, lags], square)
 
 
-def test_a_motion_is_no_difference() -> None:
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_motion_is_no_difference(dimension: int) -> None:
     random = np.random.default_rng(3)
-    points = random.normal(size=(40, 2))
-    angle = 2.3
-    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-    moved = points @ turn.T + [3.0, -1.0]
+    points = random.normal(size=(40, dimension))
+    turn, _ = np.linalg.qr(random.normal(size=(dimension, dimension)))
+    turn[:, 0] *= np.sign(np.linalg.det(turn))
+    moved = points @ turn.T + np.arange(1.0, dimension + 1.0)
     np.testing.assert_allclose(aligned(moved, points), points, atol=1e-12)
-    mirrored = points * [-1.0, 1.0]
+    mirrored = points * np.array([-1.0, *[1.0] * (dimension - 1)])
     assert np.abs(aligned(mirrored, points) - points).max() > 0.1
-    triangles = np.array([[0, 1, 2]])
-    assert displacements(points + [0.0, 2.0], points, triangles) == pytest.approx([2.0])
+    corners = np.arange(dimension + 1)[None]
+    away = np.zeros(dimension)
+    away[-1] = 2.0
+    assert displacements(points + away, points, corners) == pytest.approx([2.0])
 
 
 def test_a_draft_knows_what_it_becomes() -> None:

@@ -1,4 +1,4 @@
-"""How two maps of one source differ, triangle by triangle."""
+"""How two maps of one source differ, simplex by simplex."""
 
 from __future__ import annotations
 
@@ -8,23 +8,19 @@ from workbench.core.arrays import Floats, Integers
 
 
 def aligned(positions: Floats, onto: Floats) -> Floats:
-    """A map (n, 2) of the plane, turned and shifted so that it lies on another as well as it can.
+    """A map (n, d), turned and shifted so that it lies on another as well as it can.
 
-    Where no anchors hold a map, its place and its direction mean nothing.
+    Where no anchors hold a map, its place and its direction mean nothing. The turn is that of Kabsch 1976: from the singular
+    vectors of the covariance, without a reflection.
     """
-    z, w = _complex(positions), _complex(onto)
-    middle, other = z.mean(), w.mean()
-    overlap = np.vdot(z - middle, w - other)
-    turn = overlap / abs(overlap) if abs(overlap) > 0 else 1.0
-    moved = (z - middle) * turn + other
-    return np.stack([moved.real, moved.imag], axis=1)
+    middle, other = positions.mean(axis=0), onto.mean(axis=0)
+    u, _, v = np.linalg.svd((positions - middle).T @ (onto - other))
+    signs = np.ones(len(middle))
+    signs[-1] = np.sign(np.linalg.det(u @ v)) or 1.0
+    return np.asarray((positions - middle) @ ((u * signs) @ v) + other)
 
 
-def displacements(positions: Floats, reference: Floats, triangles: Integers) -> Floats:
-    """How far the corners of each triangle (m, 3) lie from where the reference has them, on the average: (m,)."""
-    distances = np.hypot(*(positions - reference).T)
-    return np.asarray(distances[triangles].mean(axis=1))
-
-
-def _complex(points: Floats) -> np.ndarray:
-    return points[:, 0] + 1j * points[:, 1]
+def displacements(positions: Floats, reference: Floats, simplices: Integers) -> Floats:
+    """How far the corners of each simplex (m, d+1) lie from where the reference has them, on the average: (m,)."""
+    distances = np.linalg.norm(positions - reference, axis=1)
+    return np.asarray(distances[simplices].mean(axis=1))
