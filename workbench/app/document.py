@@ -12,15 +12,24 @@ from PySide6.QtCore import QObject, Signal
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
+from workbench.app.first_anchors import SAMPLE, first_anchors
 from workbench.app.quantities import Quantity
-from workbench.core.anchor_motion import anchor_groups
+from workbench.app.sessions.restoring import (
+    Wanted,
+    anchors_in,
+    is_on_same_source,
+    name_of_anchor_change,
+    with_anchors,
+    without_anchors,
+)
+from workbench.app.watches import Watches
 from workbench.core.arrays import Floats, Integers
-from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.engine.messages import (
     Dissect,
     Dissected,
     Failure,
+    LegBegun,
     Load,
     Loaded,
     Pause,
@@ -29,15 +38,15 @@ from workbench.engine.messages import (
     Run,
     SetAnchors,
     SetProblem,
-    SetSolver,
     Snapshot,
     Step,
     TakeMap,
     Watch,
 )
+from workbench.engine.session_commands import leg_of, problem_command, solver_command, take_up
+from workbench.session.journal import Journal
 from workbench.session.session import Session
 
-SAMPLE = "sample:"
 PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions"}
 SOLVER_FIELDS = {"solver", "solver_parameters"}
 START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
@@ -51,6 +60,8 @@ class Document(QObject):
     Signals tell what changed; a view reads it from here. Nothing here draws.
     """
 
+    changing = Signal(str, str)
+    """The user is about to change something: what it is called, and a key that quick changes of one kind share."""
     session_changed = Signal()
     opening = Signal(str)
     opened = Signal()
@@ -78,16 +89,19 @@ class Document(QObject):
         self._attempt: Session | None = None
         self._runs_after_open = False
         self._before: dict[str, dict[str, Any]] = {}
+        self._wanted: Wanted | None = None
+        self.journal = Journal()
         self._problem_serial = 0
         self._is_opening = False
         self._has_finished = False
-        self._watches: dict[str, tuple[tuple[Measure, ...], bool]] = {}
+        self._watches = Watches()
         self._watched = Watch()
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
         bridge.failure.connect(self._take_failure)
         bridge.dissected.connect(self._take_dissected)
+        bridge.leg_begun.connect(self._take_leg)
 
     # ------------------------------------------------------------------------------------------ state
 
@@ -104,6 +118,11 @@ class Document(QObject):
     def positions(self) -> Floats | None:
         """The newest map (n, d)."""
         return self.snapshot.positions if self.snapshot is not None else None
+
+    @property
+    def complete_session(self) -> Session:
+        """The session with its anchors."""
+        return with_anchors(self.session, self.anchors)
 
     @property
     def is_running(self) -> bool:
@@ -124,16 +143,56 @@ class Document(QObject):
         kind: str = "auto",
         fixes: tuple[str, ...] = (),
         run: bool = False,
+        wanted: Wanted | None = None,
     ) -> None:
-        """Ask for a mesh; the present one stays until the new one is there. `run` starts the solver then."""
+        """Ask for a mesh; the present one stays until the new one is there. `run` starts the solver then.
+
+        `wanted` is the state to go to on it.
+        """
         self.generation += 1
         self.opening_source = source
+        self._wanted = wanted
         self._attempt = replace(self.session, source=source, kind=kind, fixes=fixes)
         self._runs_after_open = run
-        self._bridge.post(self._problem(self._attempt))
-        self._bridge.post(self._solver(self._attempt))
+        if wanted is not None:  # its own choices follow with its map: those of another mesh need not suit this one
+            self._bridge.post(self._problem(Session()))
+            self._bridge.post(solver_command(Session()))
+            self._problem_serial += 1  # nobody need hear that the map which goes does not suit them
+        else:
+            self._bridge.post(self._problem(self._attempt))
+            self._bridge.post(solver_command(self._attempt))
         self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
         self.opening.emit(source)
+
+    def restore(self, session: Session, positions: Floats | None, *, run: bool = False) -> None:
+        """Bring back choices with their anchors and a map (n, d), or the start where there is none; then run, or rest."""
+        there = self.positions if is_on_same_source(session, self.session) and not self.opening_source else None
+        if positions is not None and there is not None and there.shape == positions.shape:
+            self._take_up(Wanted(session, positions, run))
+        else:
+            wanted = Wanted(session, positions, run)
+            self.open(session.source, kind=session.kind, fixes=session.fixes, wanted=wanted)
+
+    def _take_up(self, wanted: Wanted) -> None:
+        assert self.loaded is not None and wanted.positions is not None
+        self._before["TakeUp"] = {**vars(self.complete_session)}
+        self._problem_serial += 1
+        self.anchor_serial += 1
+        self._put(wanted.session)
+        serials = self.anchor_serial, self._problem_serial
+        self._bridge.post(take_up(wanted.session, wanted.positions, self.loaded.generation, *serials))
+        self.history_restarted.emit()
+        if wanted.runs:
+            self._run()
+
+    def _put(self, session: Session) -> None:
+        """Hold these choices and anchors; the engine knows them, or is told by whoever calls."""
+        self.session, self.anchors = without_anchors(session), anchors_in(session)
+        self.wants_to_run = self.is_held = False
+        if self.selected not in self.anchors:
+            self.select(-1)
+        self.session_changed.emit()
+        self.anchors_changed.emit()
 
     def open_sample(self, id: str, *, run: bool = True) -> None:
         """Open a mesh of our own generator with the anchors that suit it."""
@@ -156,22 +215,21 @@ class Document(QObject):
         """Read what was asked for last once more, with more fixes."""
         attempt = self._attempt or self.session
         new = tuple(name for name in fixes if name not in attempt.fixes)
-        self.open(attempt.source, kind=attempt.kind, fixes=attempt.fixes + new, run=self._runs_after_open)
+        wanted, run = self._wanted, self._runs_after_open
+        self.open(attempt.source, kind=attempt.kind, fixes=attempt.fixes + new, run=run, wanted=wanted)
 
     def _take_loaded(self, report: Loaded) -> None:
         if report.generation != self.generation:
             return
-        self.session = replace(
-            self._attempt or self.session,
-            fixes=report.fixes,
-            initializer="",
-            initializer_parameters={},
-            start_file="",
-        )
+        if self._wanted is None:
+            self._announce("Open")
+        self.journal.clear()
+        fresh = {"initializer": "", "initializer_parameters": {}, "start_file": "", "carried": ""}
+        self.session = replace(self._attempt or self.session, fixes=report.fixes, **fresh)
         self.opening_source = ""
         self.loaded = report
         self.snapshot = None
-        self.wants_to_run = False
+        self.wants_to_run = self.is_held = False
         self.selected = -1
         self.anchors = AnchorSet.none()
         self._send_anchors(False)
@@ -198,6 +256,8 @@ class Document(QObject):
                     allow_inversions=kept.allow_inversions,
                 )
                 self.session_changed.emit()
+            elif report.command == "TakeUp":
+                self._put(Session(**self._before.pop("TakeUp", {})))
             elif report.command in REFUSABLE:
                 self.session = replace(self.session, **self._before.pop(report.command, {}))
                 self.session_changed.emit()
@@ -222,23 +282,35 @@ class Document(QObject):
         self.snapshot_taken.emit()
         if self._is_opening:
             self._is_opening = False
-            self._set_first_anchors(snapshot.positions)
+            wanted, self._wanted = self._wanted, None
+            if wanted is not None:
+                self._go_on_to(wanted, snapshot.positions)
+                return
+            anchors = first_anchors(self.loaded, self.session.source, snapshot.positions)
+            if len(anchors):
+                self._put_anchors(anchors)
             if self._runs_after_open:
-                self.run()
+                self._run()
 
-    def _set_first_anchors(self, start: Floats) -> None:
-        """Anchors that the file or the sample comes with; without targets they hold the start where it is."""
-        assert self.loaded is not None
-        vertices, targets = self.loaded.anchor_vertices, self.loaded.anchor_targets
-        if vertices is None and is_sample(self.session.source):
-            vertices = sample_anchors(self.session.source.removeprefix(SAMPLE))
-        if vertices is None or not len(vertices):
+    def _go_on_to(self, wanted: Wanted, start: Floats) -> None:
+        """The mesh of a session is open: its choices, its anchors, its map."""
+        session = replace(wanted.session, fixes=self.session.fixes)
+        positions = start if wanted.positions is None else wanted.positions
+        if positions.shape == start.shape and not any(v >= len(start) for v in session.anchor_vertices):
+            self._take_up(replace(wanted, session=session, positions=positions))
+            if wanted.positions is None:
+                self._make_start()
             return
-        anchors = AnchorSet.at(vertices, start) if targets is None else AnchorSet.to(vertices, targets)
-        if self.kind == "volume":  # faces that are anchored as a whole move as a whole
-            for rows in anchor_groups(self.loaded.mesh.simplices, vertices):
-                anchors = anchors.grouped(vertices[rows]) if len(rows) > 1 else anchors
-        self.set_anchors(anchors)
+        sentence = f"The session does not fit {session.source}: its map or its anchors are of another mesh, or of other fixes."
+        self.refused.emit(Refused(self.generation, "Session", sentence))
+
+    def _take_leg(self, report: LegBegun) -> None:
+        if self.loaded is not None and report.generation == self.loaded.generation:
+            self.journal.add(leg_of(report))
+
+    def _announce(self, name: str, key: str = "") -> None:
+        if self.snapshot is not None:
+            self.changing.emit(name, key)
 
     # ------------------------------------------------------------------------------------------ watching
 
@@ -248,15 +320,10 @@ class Document(QObject):
         Snapshots carry what any owner wants: `Snapshot.fields[quantity.field]`, and `Snapshot.singular_values`. One with the
         new fields comes at once, also while the solver rests. Nothing wanted any longer: call it with the owner alone.
         """
-        wanted = tuple(quantity.measure for quantity in quantities)
-        self._watches[owner] = (wanted, singular_values)
-        measures = dict.fromkeys(measure for these, _ in self._watches.values() for measure in these)
-        watched = Watch(
-            tuple(sorted(measures, key=lambda measure: measure.id)), any(with_them for _, with_them in self._watches.values())
-        )
-        if watched != self._watched:
-            self._watched = watched
-            self._bridge.post(watched)
+        self._watches.set(owner, quantities, singular_values)
+        if self._watches.all != self._watched:
+            self._watched = self._watches.all
+            self._bridge.post(self._watched)
 
     def watch_again(self) -> None:
         """The same as before, though a formula by the same name may be another one now."""
@@ -270,6 +337,7 @@ class Document(QObject):
         if session == self.session:
             return
         names = set(changes)
+        self._announce("Choose", ",".join(sorted(names)))
         for command, fields in REFUSABLE.items():
             if names & fields:
                 self._before[command] = {name: getattr(self.session, name) for name in fields}
@@ -277,9 +345,9 @@ class Document(QObject):
         if names & PROBLEM_FIELDS:
             self.send_problem()
         if names & SOLVER_FIELDS:
-            self._bridge.post(self._solver(session))
+            self._bridge.post(solver_command(session))
         if names & START_FIELDS and self.mesh is not None:
-            self.reset()
+            self._make_start()
         self.session_changed.emit()
 
     def send_problem(self) -> None:
@@ -288,21 +356,16 @@ class Document(QObject):
 
     def _problem(self, session: Session) -> SetProblem:
         self._problem_serial += 1
-        return SetProblem(
-            session.distortion,
-            dict(session.distortion_parameters),
-            session.fixed_boundary,
-            session.allow_inversions,
-            self._problem_serial,
-        )
-
-    @staticmethod
-    def _solver(session: Session) -> SetSolver:
-        return SetSolver(session.solver, dict(session.solver_parameters))
+        return problem_command(session, self._problem_serial)
 
     # ------------------------------------------------------------------------------------------ running
 
     def run(self) -> None:
+        if not self.is_at_work:
+            self._announce("Run")
+        self._run()
+
+    def _run(self) -> None:
         if self.mesh is None:
             return
         session = self.session
@@ -324,21 +387,25 @@ class Document(QObject):
 
     def step(self) -> None:
         if self.mesh is not None:
+            self._announce("Step", "step")
             self.wants_to_run = False
             self._bridge.post(Step(1))
             self.session_changed.emit()
 
     def reset(self) -> None:
         """Make the start anew; anchors stay where they are."""
-        if self.mesh is None:
-            return
+        if self.mesh is not None:
+            self._announce("Reset")
+            self._make_start()
+
+    def _make_start(self) -> None:
         session = self.session
         self._bridge.post(
             Reset(session.initializer, dict(session.initializer_parameters), session.start_file, session.match_area)
         )
         self.history_restarted.emit()
         if self.wants_to_run:
-            self.run()
+            self._run()
 
     def dissect(self) -> None:
         """Ask for the next step, taken apart; the map stays as it is."""
@@ -351,6 +418,7 @@ class Document(QObject):
     def take_map(self, positions: Floats) -> None:
         """Go on from a map (n, d) of the present mesh that was made elsewhere; it rests until it is run."""
         if self.loaded is not None:
+            self._announce("Take a map")
             self.pause()
             self._bridge.post(TakeMap(self.loaded.generation, positions))
             self.history_restarted.emit()
@@ -367,7 +435,12 @@ class Document(QObject):
         """Take these anchors; `at` is the time of the event behind it, for the drag meter."""
         if self.mesh is None:
             return
+        if not self.is_held and anchors != self.anchors:  # a drag is one step
+            self._announce(name_of_anchor_change(self.anchors, anchors))
         self.is_held = dragging
+        self._put_anchors(anchors, dragging, at)
+
+    def _put_anchors(self, anchors: AnchorSet, dragging: bool = False, at: float | None = None) -> None:
         self.anchors = anchors
         if self.selected >= 0 and self.selected not in anchors:
             self.select(-1)
@@ -424,18 +497,3 @@ class Document(QObject):
         if vertex != self.selected:
             self.selected = vertex
             self.selection_changed.emit()
-
-
-def is_sample(source: str) -> bool:
-    return source.startswith(SAMPLE)
-
-
-def sample_anchors(id: str) -> Integers | None:
-    """Vertices (k,) that a sample comes with; None where the sample is not known."""
-    from workbench.core.errors import WorkbenchError
-    from workbench.core.samples import sample_info
-
-    try:
-        return np.array(sample_info(id).anchors, dtype=np.int64)
-    except WorkbenchError:
-        return None

@@ -11,6 +11,7 @@ from workbench.engine.messages import (
     Command,
     Dissected,
     Failure,
+    LegBegun,
     Loaded,
     Progress,
     Ready,
@@ -121,6 +122,7 @@ class EngineBridge(ReportBridge):
     restarted = Signal(object)
     snapshot = Signal(object)
     dissected = Signal(object)
+    leg_begun = Signal(object)
 
     def __init__(self, make_worker: WorkerMaker = engine_worker) -> None:
         super().__init__(make_worker)
@@ -135,4 +137,5 @@ class EngineBridge(ReportBridge):
             Restarted: self.restarted,
             Snapshot: self.snapshot,
             Dissected: self.dissected,
+            LegBegun: self.leg_begun,
         }

@@ -9,7 +9,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
-from workbench.app.document import SAMPLE
+from workbench.app.first_anchors import SAMPLE
 from workbench.app.reporter import source_name
 from workbench.core.samples import sample_label
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QTimer
 
 from workbench.app.actions import show_running
-from workbench.app.document import SAMPLE, is_sample
+from workbench.app.first_anchors import SAMPLE, is_sample
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.core.errors import WorkbenchError
 from workbench.core.samples import sample_label

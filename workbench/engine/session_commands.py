@@ -51,14 +51,18 @@ def anchors_command(session: Session, dimension: int, serial: int = 0) -> SetAnc
     )
 
 
+def problem_command(session: Session, serial: int = 0) -> SetProblem:
+    """The distortion of a session, and what is held and allowed, for the engine."""
+    parameters = dict(session.distortion_parameters)
+    return SetProblem(session.distortion, parameters, session.fixed_boundary, session.allow_inversions, serial)
+
+
+def solver_command(session: Session) -> SetSolver:
+    """The solver of a session for the engine."""
+    return SetSolver(session.solver, dict(session.solver_parameters))
+
+
 def take_up(session: Session, positions: Floats, generation: int, serial: int = 0, problem_serial: int = 0) -> TakeUp:
     """The command that brings the engine to the choices of a session and a map (n, d)."""
-    problem = SetProblem(
-        session.distortion,
-        dict(session.distortion_parameters),
-        session.fixed_boundary,
-        session.allow_inversions,
-        problem_serial,
-    )
-    solver = SetSolver(session.solver, dict(session.solver_parameters))
+    problem, solver = problem_command(session, problem_serial), solver_command(session)
     return TakeUp(generation, positions, problem, solver, anchors_command(session, positions.shape[1], serial))

@@ -1,0 +1,65 @@
+"""Between what the window holds and what a session, or a step of the history, keeps of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+from workbench.app.anchor_set import AnchorSet
+from workbench.core.arrays import Floats
+from workbench.session.session import Session
+from workbench.session.text import ANCHORS
+
+
+@dataclass(frozen=True, eq=False)
+class Wanted:
+    """A state to go to once its mesh is open: choices with anchors, a map (or the start), and whether the solver runs."""
+
+    session: Session
+    positions: Floats | None
+    runs: bool = False
+
+
+def with_anchors(session: Session, anchors: AnchorSet) -> Session:
+    """The choices together with these anchors."""
+    count = len(anchors)
+    return replace(
+        session,
+        anchor_vertices=tuple(anchors.targets),
+        anchor_targets=tuple(anchors.targets.values()),
+        anchor_weights=(math.inf,) * count,
+        anchor_groups=tuple(anchors.group_numbers.tolist()),
+    )
+
+
+def without_anchors(session: Session) -> Session:
+    """The choices alone."""
+    nothing: dict[str, Any] = dict.fromkeys(ANCHORS, ())
+    return replace(session, **nothing)
+
+
+def anchors_in(session: Session) -> AnchorSet:
+    """The anchors of a session as the window holds them."""
+    vertices = session.anchor_vertices
+    groups = zip(vertices, session.anchor_groups or (-1,) * len(vertices), strict=True)
+    targets = dict(zip(vertices, session.anchor_targets, strict=True))
+    return AnchorSet(targets, {vertex: group for vertex, group in groups if group >= 0})
+
+
+def is_on_same_source(one: Session, other: Session) -> bool:
+    """Whether both are about one mesh, read and mended alike."""
+    return (one.source, one.kind, one.fixes) == (other.source, other.kind, other.fixes)
+
+
+def name_of_anchor_change(before: AnchorSet, after: AnchorSet) -> str:
+    """What a step is called that leads from one set of anchors to another."""
+    added, removed = len(set(after.targets) - set(before.targets)), len(set(before.targets) - set(after.targets))
+    if added or removed:
+        verb, count = ("Set", added) if added >= removed else ("Remove", removed)
+    elif before.targets != after.targets:
+        verb = "Move"
+        count = sum(before.targets[v] != target for v, target in after.targets.items())
+    else:
+        return "Group anchors"
+    return f"{verb} anchor" if count == 1 else f"{verb} {count} anchors"
