@@ -19,7 +19,9 @@ class RadialStretch(Initializer):
     kinds = ("volume",)
 
     shape: Literal["ball", "cube"] = parameter("ball", "What the boundary goes to; it has the volume of the source in the end.")
-    boundary: Literal["rays", "harmonic"] = parameter("rays", "How it gets there: along rays, or by its own harmonic map.")
+    boundary: Literal["rays", "harmonic", "balanced"] = parameter(
+        "rays", "How it gets there: along rays, by its own harmonic map, or by one whose arms do not shrink."
+    )
     repair: bool = parameter(True, "Move inner vertices of inverted tetrahedra to the middle of their neighbours.")
 
     def start(self, request: StartRequest) -> Floats:

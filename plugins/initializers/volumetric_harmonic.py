@@ -32,7 +32,9 @@ class VolumetricHarmonic(Initializer):
     shape: Literal["ball", "cube", "rest"] = parameter(
         "ball", "What the boundary goes to; it has the volume of the source in the end."
     )
-    boundary: Literal["rays", "harmonic"] = parameter("harmonic", "How it gets there: by its own harmonic map, or along rays.")
+    boundary: Literal["rays", "harmonic", "balanced"] = parameter(
+        "harmonic", "How it gets there: along rays, by its own harmonic map, or by one whose arms do not shrink."
+    )
     repair: bool = parameter(True, "Move inner vertices of inverted tetrahedra to the middle of their neighbours.")
 
     def start(self, request: StartRequest) -> Floats:

@@ -11,7 +11,7 @@ from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import MeshError
 from workbench.core.injectivity import global_injectivity
-from workbench.core.jacobians import build_elements, determinants, signed_singular_values
+from workbench.core.jacobians import build_elements, determinants, signed_singular_values, simplex_measures
 from workbench.core.linear_maps import dirichlet_matrix
 from workbench.core.mesh import Mesh
 from workbench.core.problem import Problem
@@ -19,7 +19,7 @@ from workbench.core.ray_hits import farthest_hits
 from workbench.core.rigid_start import rigid_map
 from workbench.core.samples import make_sample, sample_info
 from workbench.core.solid_boundary import boundary_images, gauge, solid_boundary
-from workbench.core.sphere_map import flipped_triangles, spherical_map, without_flips
+from workbench.core.sphere_map import balanced_map, flipped_triangles, spherical_map, without_flips
 from workbench.engine.starts import make_start
 
 
@@ -57,6 +57,19 @@ def test_the_spherical_map_of_a_sphere_is_a_rotation_or_nearly() -> None:
     sphere = spherical_map(surface)
     left, _, right = np.linalg.svd(sphere.T @ surface.vertices)
     assert np.abs(sphere @ (left @ right) - surface.vertices).max() < 0.05
+
+
+def test_the_balanced_map_gives_arms_more_room_and_folds_nothing() -> None:
+    surface = make_sample("salamander", 2500)
+    stretches = []
+    for map_to_sphere in (spherical_map, balanced_map):
+        sphere = map_to_sphere(surface)
+        assert np.allclose(np.linalg.norm(sphere, axis=1), 1.0)
+        assert len(flipped_triangles(surface.simplices, sphere)) == 0
+        areas = [simplex_measures(Mesh(x, surface.simplices)) for x in (surface.vertices, sphere)]
+        factors = areas[1] / areas[0]
+        stretches.append(factors.min() / np.median(factors))
+    assert stretches[1] > 20.0 * stretches[0]
 
 
 def test_flips_are_relaxed_away() -> None:
@@ -120,7 +133,7 @@ def test_rays_leave_a_sphere_at_its_radius() -> None:
 # ------------------------------------------------------------------------------------------- radial stretch
 
 
-@pytest.mark.parametrize("boundary", ["rays", "harmonic"])
+@pytest.mark.parametrize("boundary", ["rays", "harmonic", "balanced"])
 @pytest.mark.parametrize("shape", ["ball", "cube"])
 def test_radial_stretch_puts_the_boundary_on_the_shape(shape: str, boundary: str) -> None:
     mesh = lump(make_sample("ball", 8000))

@@ -13,11 +13,11 @@ from workbench.core.errors import MeshError
 from workbench.core.jacobians import build_elements, determinants
 from workbench.core.mesh import Mesh
 from workbench.core.relaxation import relaxed
-from workbench.core.sphere_map import spherical_map, without_flips
+from workbench.core.sphere_map import balanced_map, spherical_map, without_flips
 from workbench.core.topology import signed_contents
 
 SolidShape = Literal["ball", "cube"]
-SphereMap = Literal["rays", "harmonic"]
+SphereMap = Literal["rays", "harmonic", "balanced"]
 
 _BULGE = 0.15
 _ROUNDS = 60
@@ -81,12 +81,12 @@ def boundary_images(mesh: Mesh, boundary: SolidBoundary, shape: SolidShape, by: 
 
 
 def images_on_sphere(boundary: SolidBoundary, by: SphereMap) -> Floats:
-    """Image (k, 3) of the boundary on the unit sphere: along rays from the centre, or by the harmonic map.
+    """Image (k, 3) of the boundary on the unit sphere: along rays from the centre, by the harmonic or the balanced map.
 
     Rays fold a boundary that is not star-shaped; folds are relaxed as far as that goes.
     """
-    if by == "harmonic":
-        return spherical_map(boundary.surface)
+    if by != "rays":
+        return spherical_map(boundary.surface) if by == "harmonic" else balanced_map(boundary.surface)
     offsets = boundary.surface.vertices - boundary.centre
     lengths = np.linalg.norm(offsets, axis=1, keepdims=True)
     return without_flips(boundary.surface.simplices, offsets / np.maximum(lengths, 1e-300))

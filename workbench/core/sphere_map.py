@@ -8,6 +8,8 @@ from scipy import sparse
 from workbench.core.arrays import Floats, Integers
 from workbench.core.convex_map import cotangent_weights, laplacian
 from workbench.core.definite_solve import solve_with_fixed
+from workbench.core.errors import WorkbenchError
+from workbench.core.jacobians import rest_edges
 from workbench.core.mesh import Mesh
 from workbench.core.predicates import orientation_3d
 from workbench.core.relaxation import relaxed
@@ -20,6 +22,11 @@ _LEAST_HELD = 0.02
 _SMALLEST_WEIGHT = 0.05
 """Weights of edges are at least this part of their median: negative ones could fold the map."""
 _CENTRED = 1e-9
+_BALANCINGS = 12
+_WORTH_IT = 0.9
+"""A round that leaves more than this part of the stretch is the last."""
+_MOST_CHANGE = 1e4
+"""Weights change by at most this factor a round."""
 
 
 def spherical_map(surface: Mesh) -> Floats:
@@ -42,15 +49,52 @@ def spherical_map(surface: Mesh) -> Floats:
     Raises `WorkbenchError` where a linear system is singular.
     Source: Haker et al. 2000, Gu & Yau 2003 and Choi, Lam & Lui 2015, for the way by the plane.
     """
-    return without_flips(surface.simplices, _conformal(surface))
-
-
-def _conformal(surface: Mesh) -> Floats:
-    """The centred harmonic map as the alternation gives it: the one of its rounds with the fewest flipped triangles."""
     weights = _positive(cotangent_weights(surface))
+    return without_flips(surface.simplices, _alternated(surface, weights, _layout(surface, weights)))
+
+
+def balanced_map(surface: Mesh) -> Floats:
+    """A map to the unit sphere like `spherical_map`, whose arms do not shrink to specks: weights are lowered where it shrinks.
+
+    The weights stay positive; of some rounds the map with the fewest flipped triangles and the least stretch from the sphere
+    back to the surface is taken.
+
+    Parameters
+    ----------
+    surface : Mesh     as there
+
+    Returns
+    -------
+    (n, 3) float64, of unit length
+
+    Source: Yoshizawa, Belyaev & Seidel 2004, for the weights, on discs.
+    """
+    weights = _positive(cotangent_weights(surface))
+    sphere = _alternated(surface, weights, _layout(surface, weights))
+    best, least = sphere, (np.inf, np.inf)
+    for _ in range(_BALANCINGS):
+        stretches = _stretches_back(surface, sphere)
+        flips = len(flipped_triangles(surface.simplices, sphere))
+        now = (flips, float(stretches.max() if not np.isfinite(stretches).all() else (stretches**2).mean()))
+        gains = flips < least[0] or (flips == least[0] and now[1] < _WORTH_IT * least[1])
+        if now < least:
+            best, least = sphere, now
+        if not gains:
+            break
+        weights = weights / np.clip(stretches / np.median(stretches), 1.0 / _MOST_CHANGE, _MOST_CHANGE)[:, None]
+        plane = (sphere @ np.array([1.0, 1j, 0.0])) / np.maximum(1.0 - sphere[:, 2], 1e-12)
+        try:
+            sphere = _alternated(surface, weights, plane)
+        except WorkbenchError:  # too uneven to be solved
+            break
+    return without_flips(surface.simplices, best)
+
+
+def _alternated(surface: Mesh, weights: Floats, plane: Floats) -> Floats:
+    """The centred map to the sphere as the alternation from `plane` gives it: the round with the fewest flipped triangles."""
     matrix = laplacian(surface.simplices, weights, surface.vertex_count)
     areas = _vertex_areas(surface)
-    plane = _layout(surface, matrix, areas)
+    plane = _balanced(plane, areas)
     best, fewest = _upright(surface.simplices, _centred(_wrapped(plane), areas))
     for _ in range(_HALVES):
         held_area = float(areas[np.abs(plane) >= _CAP].sum())
@@ -62,6 +106,16 @@ def _conformal(surface: Mesh) -> Floats:
             best, fewest = sphere, flips
         plane = _balanced(1.0 / np.conj(_off_origin(plane)), areas)
     return best
+
+
+def _stretches_back(surface: Mesh, sphere: Floats) -> Floats:
+    """(m,) root mean square of the singular values from the triangles on the sphere back to those of the surface."""
+    edges = rest_edges(Mesh(sphere, surface.simplices))
+    areas = np.abs(edges[:, 0, 0] * edges[:, 1, 1])
+    back = rest_edges(surface) @ np.linalg.inv(np.where(areas[:, None, None] > 1e-250, edges, np.eye(2)))
+    squares = np.einsum("mij,mij->m", back, back)
+    result: Floats = np.sqrt(np.where(areas > 1e-250, squares, squares.max()))
+    return result
 
 
 def _upright(triangles: Integers, sphere: Floats) -> tuple[Floats, int]:
@@ -103,15 +157,16 @@ def _vertex_areas(surface: Mesh) -> Floats:
     return shares / shares.sum()
 
 
-def _layout(surface: Mesh, matrix: sparse.csr_matrix, areas: Floats) -> Floats:
-    """The surface less its most regular triangle in the complex plane (n,), half of its area within the unit circle."""
+def _layout(surface: Mesh, weights: Floats) -> Floats:
+    """The surface less its most regular triangle in the complex plane (n,), by its harmonic map to the triangle."""
+    matrix = laplacian(surface.simplices, weights, surface.vertex_count)
     corners = surface.vertices[surface.simplices]
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     left_out = surface.simplices[int(np.argmin(sides.max(axis=1) / sides.min(axis=1)))]
     angle = 2.0 * np.pi * np.arange(3) / 3.0
     places = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     positions = solve_with_fixed(matrix, left_out, places, surface.elimination_order)
-    return _balanced(positions @ np.array([1.0, 1j]), areas)
+    return positions @ np.array([1.0, 1j])
 
 
 def _balanced(plane: Floats, areas: Floats) -> Floats:
