@@ -92,3 +92,25 @@ def test_half_a_turn_goes_the_same_way_round_whatever_the_rounding(axis: list[fl
     assert np.allclose(first_step(np.pi + noise), first_step(np.pi), atol=1e-9)
     assert np.allclose(first_step(-np.pi), first_step(np.pi), atol=1e-9)
     assert not np.allclose(first_step(-3.0), first_step(3.0), atol=1e-2)  # elsewhere the shorter way
+
+
+def test_a_twist_is_the_same_bit_for_bit_and_can_be_interrupted() -> None:
+    anchors = turned_end(BAR, 180, 1.3)
+    first, second = (twisted(BAR.vertices, anchors) for _ in range(2))
+    assert np.array_equal(first.state.positions, second.state.positions)
+    problem = Problem.create(BAR, "volume", Distortion.resolve("symmetric-dirichlet"), anchors)
+    solver = registry().solver("projected-newton")()
+    state = solver.step(problem, solver.init(problem, BAR.vertices))
+    stopped = solver.step(problem, state, lambda: True)
+    assert stopped.status is Status.INTERRUPTED and stopped.positions is state.positions
+
+
+def test_few_factorisations_bring_a_turned_end_home() -> None:
+    """The ends go round without one; what remains is a few Newton steps."""
+    problem = Problem.create(BAR, "volume", Distortion.resolve("symmetric-dirichlet"), turned_end(BAR, 180, 1.3))
+    arrived = []
+    run(
+        registry().solver("projected-newton")(), problem, BAR.vertices, on_state=lambda s: arrived.append(s.anchor_error < 1e-9)
+    )
+    assert arrived.index(True) >= 10  # eleven way points, none farther than `LARGEST_TURN`
+    assert problem.workspace.all_counts()["factorise"] <= 8  # one of them of the Laplacian
