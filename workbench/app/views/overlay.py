@@ -7,9 +7,8 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
-    QBrush,
     QColor,
     QContextMenuEvent,
     QKeyEvent,
@@ -26,6 +25,7 @@ from workbench.app.handling.normals import faces_away
 from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo
+from workbench.app.views.stamps import stamp_discs
 from workbench.core.arrays import Booleans, Integers
 
 if TYPE_CHECKING:
@@ -180,18 +180,17 @@ class Overlay(QWidget):
         radius = RADIUS if len(discs) <= MANY else SMALL_RADIUS
         rim = QPen(ANCHOR_RIM, 1.8 if radius == RADIUS else 1.0)
         leash = QPen(QColor(self.theme.text), 1.2, Qt.PenStyle.DashLine)
-        gaps = np.abs(discs - vertices).max(axis=1)
-        for row in np.flatnonzero(gaps > 2.0).tolist():
+        far = np.abs(discs - vertices).max(axis=1) > 2.0
+        if far.any():
+            if np.count_nonzero(far) > MANY:  # dashes of hundreds of lines take longer than all the rest
+                leash = QPen(QColor(self.theme.faint), 1.0)
             painter.setPen(leash)
-            painter.drawLine(QPointF(*vertices[row]), QPointF(*discs[row]))
-        painter.setPen(rim)
+            painter.drawLines([QLineF(*ends) for ends in np.hstack([vertices, discs])[far].tolist()])
         is_selected, is_behind = scene.is_selected, self._behind(scene.anchor_vertices)
         for behind in (True, False):
             painter.setOpacity(BEHIND if behind else 1.0)
-            for brush, chosen, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
-                painter.setBrush(QBrush(brush))
-                for point in discs[chosen & (is_behind == behind)]:
-                    painter.drawEllipse(QPointF(*point), radius + larger, radius + larger)
+            for colour, chosen, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
+                stamp_discs(painter, discs[chosen & (is_behind == behind)], colour, rim, radius + larger)
 
     def _behind(self, vertices: Integers) -> Booleans:
         """(k,) which of these are at the back of a solid, or inside; surfaces have no back."""
