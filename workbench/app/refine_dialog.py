@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.new_file import ask_new_file
 from workbench.app.refine_work import MOST_MEASURED, CurvePicture, free_name, schemes_of
 from workbench.app.reporter import counted
 from workbench.core.errors import WorkbenchError
@@ -156,13 +157,7 @@ class RefineDialog(QDialog):
         self.error.hide()
 
     def _browse(self) -> None:
-        dialog = QFileDialog(self, "Save the refined map", self.file.text(), "NumPy case (*.npz)")
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setOption(QFileDialog.Option.DontConfirmOverwrite)  # a file that is there is refused
-        dialog.setDefaultSuffix("npz")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self._take_file)
-        dialog.open()
+        ask_new_file(self, "Save the refined map", self.file.text(), "NumPy case (*.npz)", "npz", self._take_file)
 
     def _take_file(self, path: str) -> None:
         self._own_name = False

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.filling.fill_work import FillRequest, check_request
+from workbench.app.new_file import ask_new_file
 from workbench.app.refine_work import free_name
 from workbench.core.errors import WorkbenchError
 
@@ -124,21 +125,12 @@ class FillDialog(QDialog):
     def _browse_surface(self) -> None:
         dialog = QFileDialog(self, "Fill a surface", str(self._folder), SURFACES)
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        self._open(dialog, self.source.setText)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(self.source.setText)
+        dialog.open()
 
     def _browse_solid(self) -> None:
-        dialog = QFileDialog(self, "Save the solid", self.file.text(), SOLIDS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setOption(QFileDialog.Option.DontConfirmOverwrite)  # a file that is there is refused
-        dialog.setDefaultSuffix("mesh")
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
-        self._open(dialog, self._take_file)
-
-    @staticmethod
-    def _open(dialog: QFileDialog, deed: object) -> None:
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(deed)
-        dialog.open()
+        ask_new_file(self, "Save the solid", self.file.text(), SOLIDS, "mesh", self._take_file)
 
     def _take_file(self, path: str) -> None:
         self._own_name = False
