@@ -37,9 +37,9 @@ def plain_of(record: SessionRecord) -> tuple[dict[str, Any], dict[str, Floats]]:
     arrays: dict[str, Floats] = {}
     source = {"path": session.source} | ({"sha256": record.sha256} if record.sha256 else {})
     plain: dict[str, Any] = {"format": FORMAT, "version": VERSION, "source": source}
-    plain |= _differing(session, Session(), tuple(schema.CHOICES))
+    plain |= differing(session, Session(), tuple(schema.CHOICES))
     if session.anchor_vertices:
-        plain["anchors"] = _anchor_rows(session)
+        plain["anchors"] = anchor_rows(session)
     if record.energy is not None and math.isfinite(record.energy):
         plain["energy"] = record.energy
     if record.legs:
@@ -49,8 +49,9 @@ def plain_of(record: SessionRecord) -> tuple[dict[str, Any], dict[str, Floats]]:
     return plain, arrays
 
 
-def _differing(session: Session, base: Session, names: tuple[str, ...]) -> dict[str, Any]:
-    values = {name: getattr(session, name) for name in names}
+def differing(chosen: Any, base: Any, names: tuple[str, ...]) -> dict[str, Any]:
+    """Those of the fields `names` of an object in which it differs from another, as JSON has them."""
+    values = {name: getattr(chosen, name) for name in names}
     return {name: _plain(value) for name, value in values.items() if value != getattr(base, name)}
 
 
@@ -62,7 +63,8 @@ def _plain(value: Any) -> Any:
     return dict(value) if isinstance(value, Mapping) else value
 
 
-def _anchor_rows(session: Session) -> list[list[Any]]:
+def anchor_rows(session: Session) -> list[list[Any]]:
+    """The anchors of a session as rows `[vertex, target, weight, group]`; what says nothing is left out."""
     count = len(session.anchor_vertices)
     weights = session.anchor_weights or (math.inf,) * count
     groups = session.anchor_groups or (-1,) * count
@@ -75,9 +77,9 @@ def _anchor_rows(session: Session) -> list[list[Any]]:
 
 def _leg_object(leg: Leg, session: Session, index: int, arrays: dict[str, Floats]) -> dict[str, Any]:
     plain: dict[str, Any] = {"from": leg.origin, "iterations": leg.iterations}
-    plain |= _differing(leg.choices, session, LEG_CHOICES)
+    plain |= differing(leg.choices, session, LEG_CHOICES)
     if any(getattr(leg.choices, name) != getattr(session, name) for name in ANCHORS):
-        plain["anchors"] = _anchor_rows(leg.choices)
+        plain["anchors"] = anchor_rows(leg.choices)
     if leg.positions is not None and leg.origin != "previous":
         arrays[f"leg-{index}"] = leg.positions
     return plain
@@ -86,23 +88,23 @@ def _leg_object(leg: Leg, session: Session, index: int, arrays: dict[str, Floats
 # ---------------------------------------------------------------------------------------------- reading
 
 
-def parsed(text: str) -> dict[str, Any]:
-    """The JSON object of a text; `WorkbenchError` for anything else."""
+def parsed(text: str, format: str = FORMAT, newest: int = VERSION, noun: str = "session") -> dict[str, Any]:
+    """The JSON object of a text that says it is of this format; `WorkbenchError` for anything else."""
     try:
         found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twins)
     except RecursionError:
-        raise WorkbenchError("It is nested too deep to be a session.") from None
+        raise WorkbenchError(f"It is nested too deep to be a {noun}.") from None
     except json.JSONDecodeError as error:
         raise WorkbenchError(f"It is no JSON (line {error.lineno}: {error.msg}).") from None
     except ValueError:
         raise WorkbenchError("It has a number with too many digits.") from None
-    if not isinstance(found, dict) or found.get("format") != FORMAT:
-        raise WorkbenchError(f"It is no session: a session says 'format': {FORMAT!r}.")
+    if not isinstance(found, dict) or found.get("format") != format:
+        raise WorkbenchError(f"It is no {noun}: a {noun} says 'format': {format!r}.")
     version = found.get("version")
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
         raise schema.refuse("version", version, "a whole number from 1 on")
-    if version > VERSION:
-        raise WorkbenchError(f"It was written by a newer program (version {version}, known is {VERSION}); update this one.")
+    if version > newest:
+        raise WorkbenchError(f"It was written by a newer program (version {version}, known is {newest}); update this one.")
     return found
 
 
@@ -120,7 +122,7 @@ def _no_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 def record_of(plain: Mapping[str, Any], arrays: Mapping[str, Floats]) -> SessionRecord:
     """The session that a parsed object and the arrays beside it stand for. Raises `WorkbenchError` naming what is wrong."""
     known = {"format", "version", "source", "anchors", "energy", "legs", *schema.CHOICES}
-    _only(plain, known, "The session")
+    only_known(plain, known, "The session")
     source, sha256 = _source(plain.get("source"))
     choices = {name: check(name, plain[name]) for name, check in schema.CHOICES.items() if name in plain}
     session = Session(source=source, **choices, **_anchors(plain))
@@ -129,13 +131,14 @@ def record_of(plain: Mapping[str, Any], arrays: Mapping[str, Floats]) -> Session
     legs = tuple(_leg_of(item, session, index, arrays) for index, item in enumerate(objects))
     found = arrays.get(MAP)
     used = {MAP, *(f"leg-{index}" for index in range(len(legs)))}
-    _only(arrays, used, "The file")
+    only_known(arrays, used, "The file")
     if any(a.shape[1] != b.shape[1] or len(a) != len(b) for a in arrays.values() for b in arrays.values()):
         raise WorkbenchError("Its maps are not all of one mesh.")
     return SessionRecord(session, sha256, found, legs, energy)
 
 
-def _only(found: Mapping[str, Any], known: set[str], what: str) -> None:
+def only_known(found: Mapping[str, Any], known: set[str], what: str) -> None:
+    """Raises `WorkbenchError` for the first entry that is not known."""
     unknown = next((name for name in found if name not in known), None)
     if unknown is not None:
         raise WorkbenchError(f"{what} has an entry {unknown[: schema.SHOWN]!r}, which is not known.")
@@ -144,7 +147,7 @@ def _only(found: Mapping[str, Any], known: set[str], what: str) -> None:
 def _source(value: Any) -> tuple[str, str]:
     if not isinstance(value, dict):
         raise schema.refuse("source", value, "an object with path and sha256")
-    _only(value, {"path", "sha256"}, "The source")
+    only_known(value, {"path", "sha256"}, "The source")
     return schema.path("source.path", value.get("path")), schema.digest("source.sha256", value.get("sha256", ""))
 
 
@@ -156,7 +159,7 @@ def _leg_of(plain: Any, session: Session, index: int, arrays: Mapping[str, Float
     what = f"Leg {index}"
     if not isinstance(plain, dict):
         raise schema.refuse(what, plain, "an object")
-    _only(plain, {"from", "iterations", "anchors", *LEG_CHOICES}, what)
+    only_known(plain, {"from", "iterations", "anchors", *LEG_CHOICES}, what)
     origin = plain.get("from")
     if not isinstance(origin, str) or origin not in get_args(Origin) or (origin == "previous") is (index == 0):
         raise schema.refuse(f"{what}: from", origin, "start or map for the first leg, previous for the others")

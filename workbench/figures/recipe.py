@@ -1,0 +1,103 @@
+"""What a figure shows: a page, maps, and the panels that are made of them. Plain values; nothing is read or drawn here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from workbench.session.session import Session
+
+CHEQUERED = "chequered"
+PLAIN = "plain"
+PATTERNS = (CHEQUERED, PLAIN)
+"""Colourings that are no measure: the source's texture, and one colour with edges."""
+KINDS = ("map", "source", "histogram", "curves", "colour-bar", "empty")
+BACKGROUNDS = ("white", "transparent")
+QUANTITIES = {"energy": "energy", "gradient-norm": "gradient norm", "inverted": "inverted"}
+"""What curves show over the iterations, with the words of their axis."""
+DEFAULT_MEASURE = "symmetric-dirichlet"
+
+
+@dataclass(frozen=True)
+class Page:
+    """The paper: `width` in mm, `dpi` of PNG and of pictures inside PDF and SVG, `font_size` in points."""
+
+    width: float = 180.0
+    dpi: int = 300
+    font_size: float = 8.0
+    background: str = "white"
+    columns: int = 3
+    letters: bool = False
+    title: str = ""
+
+
+@dataclass(frozen=True)
+class MapChoice:
+    """A map: out of the file `target`, or what `session` leads to from its start.
+
+    `session.iterations` is where the solver is stopped; curves and captions call the map by its `label`.
+    """
+
+    name: str
+    session: Session
+    target: str = ""
+    label: str = ""
+
+    @property
+    def title(self) -> str:
+        return self.label or self.name
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A part of the page.
+
+    Parameters
+    ----------
+    kind : str            one of `KINDS`
+    maps : tuple of str   names of maps: one of them for `map` and `source`
+    colour : str          a measure (see `workbench.core.measure`), or one of `PATTERNS`
+    parameters : dict     of the measure
+    scale : str           panels of one name share one range of colours, or of bins
+    range : (low, high)   of the colours; None: fitted
+    frame : str           maps of one name are drawn on one scale of length
+    bar : bool            a colour bar below
+    caption : str         above; empty for the label of the map, where there is one
+    edges, anchors : bool     whether they are drawn
+    quantity : str        of curves, one of `QUANTITIES`
+    bins : int            of a histogram
+    span : int            columns that it takes
+    """
+
+    kind: str = "map"
+    maps: tuple[str, ...] = ()
+    colour: str = DEFAULT_MEASURE
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    scale: str = ""
+    range: tuple[float, float] | None = None
+    frame: str = ""
+    bar: bool = False
+    caption: str = ""
+    edges: bool = False
+    anchors: bool = True
+    quantity: str = "energy"
+    bins: int = 48
+    span: int = 1
+
+    @property
+    def is_picture(self) -> bool:
+        """Whether it shows a mesh."""
+        return self.kind in ("map", "source")
+
+    @property
+    def has_measure(self) -> bool:
+        return self.kind != "empty" and self.colour not in PATTERNS
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A figure that can be made again."""
+
+    page: Page
+    maps: tuple[MapChoice, ...]
+    panels: tuple[Panel, ...]

@@ -1,0 +1,219 @@
+"""A recipe as JSON: nothing but what is known is read, every value within bounds, and nothing in it is ever executed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+from workbench.core.errors import WorkbenchError
+from workbench.figures.recipe import BACKGROUNDS, KINDS, QUANTITIES, MapChoice, Page, Panel, Recipe
+from workbench.io.atomic import write_text
+from workbench.io.opening import SAMPLE
+from workbench.io.read import read_bytes
+from workbench.session import schema
+from workbench.session.session import Session
+from workbench.session.text import anchor_rows, differing, only_known, parsed, readable
+
+FORMAT = "distortion-workbench figure"
+VERSION = 1
+MOST_MAPS = 64
+MOST_PANELS = 120
+MOST_STEPS = 100_000
+LARGEST_TEXT = 2**25
+LONGEST_CAPTION = 300
+LARGEST_PAGE = 60e6
+"""Pixels of a page with a side as long as its width."""
+SESSION_FIELDS = tuple(name for name in schema.CHOICES if name not in ("carried", "time_limit"))
+"""Choices that a map is solved with; how far a solver comes in a time differs from run to run."""
+FILES = ("source", "start_file")
+
+
+def read_recipe(path: str | os.PathLike[str]) -> Recipe:
+    """The recipe in a file, its paths relative to where the file is. Raises `WorkbenchError`; nothing named is opened."""
+    data = read_bytes(Path(path))
+    try:
+        if len(data) > LARGEST_TEXT:
+            raise WorkbenchError("It is too large to be a recipe.")
+        recipe = recipe_of(parsed(data.decode("utf-8-sig"), FORMAT, VERSION, "recipe of a figure"))
+    except UnicodeDecodeError:
+        raise WorkbenchError(f"{path}: It is no recipe: it has to be text in UTF-8.") from None
+    except WorkbenchError as error:
+        raise WorkbenchError(f"{path}: {error.sentence}") from None
+    folder = Path(os.path.abspath(path)).parent
+    return with_paths(recipe, lambda name: os.path.normpath(folder / name))
+
+
+def write_recipe(path: str | os.PathLike[str], recipe: Recipe) -> None:
+    """Write a recipe, whole or not at all; its files are named relative to its folder."""
+    folder = Path(os.path.realpath(path)).parent
+    write_text(path, readable(plain_of(with_paths(recipe, lambda name: _relative(name, folder)))) + "\n")
+
+
+def with_paths(recipe: Recipe, change: Callable[[str], str]) -> Recipe:
+    """The recipe with the names of its files changed; samples stay."""
+
+    def changed(name: str) -> str:
+        return change(name) if name and not name.startswith(SAMPLE) else name
+
+    def moved(choice: MapChoice) -> MapChoice:
+        places: dict[str, Any] = {field: changed(getattr(choice.session, field)) for field in FILES}
+        return replace(choice, session=replace(choice.session, **places), target=changed(choice.target))
+
+    return replace(recipe, maps=tuple(moved(choice) for choice in recipe.maps))
+
+
+def _relative(name: str, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(os.path.realpath(name), folder)).as_posix()
+    except ValueError:  # on another drive
+        return str(Path(name).absolute())
+
+
+def plain_of(recipe: Recipe) -> dict[str, Any]:
+    """The JSON object of a recipe: what differs from the defaults."""
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "page": differing(recipe.page, Page(), tuple(PAGE)),
+        "maps": [_plain_map(choice) for choice in recipe.maps],
+        "panels": [{"kind": panel.kind, **differing(panel, Panel(), tuple(PANEL))} for panel in recipe.panels],
+    }
+
+
+def _plain_map(choice: MapChoice) -> dict[str, Any]:
+    plain: dict[str, Any] = {"name": choice.name, "source": choice.session.source}
+    plain |= {name: value for name in ("label", "target") if (value := getattr(choice, name))}
+    plain |= differing(choice.session, Session(), SESSION_FIELDS)
+    return plain | ({"anchors": anchor_rows(choice.session)} if choice.session.anchor_vertices else {})
+
+
+# ---------------------------------------------------------------------------------------------- reading
+
+
+def recipe_of(plain: Mapping[str, Any]) -> Recipe:
+    """The recipe that a parsed object stands for. Raises `WorkbenchError` naming what is wrong and where."""
+    only_known(plain, {"format", "version", "page", "maps", "panels"}, "The recipe")
+    page = Page(**_checked(plain.get("page", {}), PAGE, "page"))
+    if (page.width / 25.4 * page.dpi) ** 2 > LARGEST_PAGE:
+        raise WorkbenchError(f"A page {page.width:g} mm wide at {page.dpi} dpi is too large; take a smaller dpi.")
+    maps = tuple(_map_of(item, f"map {i + 1}") for i, item in enumerate(schema.rows("maps", plain.get("maps"), MOST_MAPS)))
+    names = [choice.name for choice in maps]
+    if len(set(names)) < len(names):
+        raise WorkbenchError("Two maps have the same name; give each its own.")
+    rows = schema.rows("panels", plain.get("panels"), MOST_PANELS)
+    panels = tuple(_panel_of(item, f"panel {i + 1}", page, names) for i, item in enumerate(rows))
+    if not any(panel.kind != "empty" for panel in panels):
+        raise WorkbenchError("The recipe has no panel; a figure needs one at least.")
+    return Recipe(page, maps, panels)
+
+
+def _map_of(plain: Any, what: str) -> MapChoice:
+    fixed = {"name": _name, "label": _caption, "target": schema.path, "source": schema.path}
+    checks = fixed | {name: schema.CHOICES[name] for name in SESSION_FIELDS} | {"anchors": schema.anchors, "iterations": _steps}
+    found = _checked(plain, checks, what)
+    if not found.get("name") or not found.get("source"):
+        raise WorkbenchError(f"{what} needs a name and a source: a mesh file, or sample:ID.")
+    anchors = found.pop("anchors", {})
+    own = {name: found.pop(name) for name in ("name", "label", "target") if name in found}
+    return MapChoice(session=Session(**found, **anchors), **own)
+
+
+def _panel_of(plain: Any, what: str, page: Page, names: list[str]) -> Panel:
+    panel = Panel(**_checked(plain, PANEL, what))
+    unknown = next((name for name in panel.maps if name not in names), None)
+    if unknown is not None:
+        raise WorkbenchError(f"{what} shows the map {unknown!r}; there are: {', '.join(names) or 'none'}.")
+    if panel.is_picture and len(panel.maps) != 1:
+        raise WorkbenchError(f"{what} shows {len(panel.maps)} maps; a {panel.kind} shows one.")
+    if panel.kind in ("histogram", "curves") and not panel.maps:
+        raise WorkbenchError(f"{what} names no maps; {panel.kind} needs one at least.")
+    if panel.kind in ("histogram", "colour-bar") and not panel.has_measure:
+        raise WorkbenchError(f"{what}: {panel.colour} has no values for a {panel.kind}; name a distortion, or another measure.")
+    if panel.kind == "colour-bar" and not panel.scale:
+        raise WorkbenchError(f"{what}: a colour bar of its own belongs to a scale; name the scale of the maps that share it.")
+    if panel.span > page.columns:
+        raise WorkbenchError(f"{what} takes {panel.span} columns, and the page has {page.columns}.")
+    return panel
+
+
+def _checked(plain: Any, checks: Mapping[str, schema.Check], what: str) -> dict[str, Any]:
+    """Every entry of an object checked by name. Raises `WorkbenchError` for others."""
+    if not isinstance(plain, dict):
+        raise schema.refuse(what, plain, "an object")
+    only_known(plain, set(checks), what)
+    return {name: checks[name](f"{what}: {name}", value) for name, value in plain.items()}
+
+
+# ---------------------------------------------------------------------------------------------- values
+
+
+def _one_of(choices: tuple[str, ...]) -> schema.Check:
+    def check(what: str, value: Any) -> str:
+        if not isinstance(value, str) or value not in choices:
+            raise schema.refuse(what, value, f"one of {', '.join(choices)}")
+        return value
+
+    return check
+
+
+def _within(lowest: float, highest: float) -> schema.Check:
+    return lambda what, value: schema.number(what, value, lowest, highest)
+
+
+def _whole(lowest: int, highest: int) -> schema.Check:
+    return lambda what, value: schema.whole(what, value, lowest, highest)
+
+
+def _steps(what: str, value: Any) -> int:
+    return schema.whole(what, value, 0, MOST_STEPS)
+
+
+def _caption(what: str, value: Any) -> str:
+    return schema.text(what, value, LONGEST_CAPTION)
+
+
+def _name(what: str, value: Any) -> str:
+    return schema.text(what, value, schema.SHOWN)
+
+
+def _names(what: str, value: Any) -> tuple[str, ...]:
+    return tuple(_name(what, name) for name in schema.rows(what, value, MOST_MAPS))
+
+
+def _range(what: str, value: Any) -> tuple[float, float]:
+    ends = [schema.number(what, end) for end in schema.rows(what, value, 2)]
+    if len(ends) != 2 or not ends[0] < ends[1]:
+        raise schema.refuse(what, value, "two numbers, the smaller first")
+    return ends[0], ends[1]
+
+
+PAGE: dict[str, schema.Check] = {
+    "width": _within(20.0, 2000.0),
+    "dpi": _whole(36, 2400),
+    "font_size": _within(3.0, 40.0),
+    "background": _one_of(BACKGROUNDS),
+    "columns": _whole(1, 20),
+    "letters": schema.flag,
+    "title": _caption,
+}
+PANEL: dict[str, schema.Check] = {
+    "kind": _one_of(KINDS),
+    "maps": _names,
+    "colour": schema.text,
+    "parameters": schema.numbers_by_name,
+    "scale": _name,
+    "range": _range,
+    "frame": _name,
+    "bar": schema.flag,
+    "caption": _caption,
+    "edges": schema.flag,
+    "anchors": schema.flag,
+    "quantity": _one_of(tuple(QUANTITIES)),
+    "bins": _whole(2, 1000),
+    "span": _whole(1, 20),
+}
+assert set(PANEL) == {field.name for field in fields(Panel)}
+assert set(PAGE) == {field.name for field in fields(Page)}
