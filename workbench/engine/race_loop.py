@@ -118,7 +118,7 @@ class RaceLoop:
         self._serial, self._race, self._phase = command.serial, None, None
         self._running, self._steps_left, self._seek = False, 0, Seek()
         self._boundary = Anchors.none(command.mesh.dimension)
-        self._publish(Progress("Bringing everyone to the start …"))
+        self._publish(Progress("Bringing everyone to the start; what is compiled for it the first time ever takes a minute …"))
         problem = _problem_of(command)
         start = _start_of(command, problem)
         if command.problem.fixed_boundary:
