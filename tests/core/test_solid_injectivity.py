@@ -257,5 +257,6 @@ def test_the_sweep_finds_the_pairs_that_each_pair_alone_gives() -> None:
     alone = {p for p in combinations(range(60), 2) if len(meeting_triangles(triangles[list(p)], positions))}
     assert found == alone and len(found) > 20
     common = {p for p in found if set(triangles[p[0]]) & set(triangles[p[1]])}
-    assert {tuple(p) for p in meeting_triangles(triangles, positions, around_vertices=True).tolist()} == common
+    assert {tuple(p) for p in meeting_triangles(triangles, positions, "joined").tolist()} == common
+    assert {tuple(p) for p in meeting_triangles(triangles, positions, "apart").tolist()} == found - common
     assert len(meeting_triangles(triangles, positions, most=7)) == 7

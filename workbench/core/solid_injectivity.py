@@ -41,7 +41,7 @@ def stars_of_solid(mesh: Mesh, tetrahedra: Integers, positions: Floats) -> Verdi
             f"first round edge {int(edges[0, 0])}-{int(edges[0, 1])}."
         )
         return Verdict(False, reason, edges=edges)
-    pairs = meeting_triangles(boundary, positions, around_vertices=True, most=MOST_PAIRS)
+    pairs = meeting_triangles(boundary, positions, "joined", MOST_PAIRS)
     if len(pairs):
         offenders = boundary[pairs]
         first, second = offenders[:, 0], offenders[:, 1]
@@ -61,6 +61,8 @@ def stars_of_solid(mesh: Mesh, tetrahedra: Integers, positions: Floats) -> Verdi
 def boundary_of_solid(mesh: Mesh, tetrahedra: Integers, positions: Floats) -> Verdict:
     """Whether a locally injective map of tetrahedra is one-to-one on its boundary, and no component covers another.
 
+    Boundary triangles with a common vertex are known not to meet: that is part of being locally injective.
+
     Parameters
     ----------
     tetrahedra : (m, 4) int64      of the mesh, corners in the order that is positive in the map
@@ -69,7 +71,7 @@ def boundary_of_solid(mesh: Mesh, tetrahedra: Integers, positions: Floats) -> Ve
     table = facet_table(tetrahedra)
     sides = table.first[table.counts == 1]
     boundary, component = table.sides[sides], mesh.topology.components[sides // 4]
-    pairs = meeting_triangles(boundary, positions, most=MOST_PAIRS)
+    pairs = meeting_triangles(boundary, positions, "apart", MOST_PAIRS)
     if len(pairs):
         offenders = boundary[pairs]
         count = f"at least {len(pairs)}" if len(pairs) == MOST_PAIRS else str(len(pairs))

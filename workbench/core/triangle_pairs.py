@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numba
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.exact_orientation import BOUND_3D, TINY, orientation_sign
 
-ALL, WITH_COMMON_VERTEX = 0, 1
+Which = Literal["all", "joined", "apart"]
+_ALL, _JOINED, _APART = 0, 1, 2
 _FINEST = 2.0**-230
 """Coordinates below this part of the largest count as 0: so products of three differences are exact."""
 _FIRST_ROOM = 1024
 
 
-def meeting_triangles(triangles: Integers, positions: Floats, around_vertices: bool = False, most: int = 10_000) -> Integers:
+def meeting_triangles(triangles: Integers, positions: Floats, which: Which = "all", most: int = 10_000) -> Integers:
     """Pairs (p, 2) of triangles, lower number first, that meet elsewhere than in what they have in common.
 
     Triangles are closed: to touch is to meet. Two on one edge meet where they lie on each other; two at one vertex where
@@ -24,7 +27,7 @@ def meeting_triangles(triangles: Integers, positions: Floats, around_vertices: b
     ----------
     triangles : (b, 3) int64          none of them degenerate in `positions`, no two on the same three vertices
     positions : (n, 3) float64        finite
-    around_vertices : bool            only pairs with a common vertex
+    which : str                       pairs with a common vertex ("joined"), those without ("apart"), or all
     most : int                        the search ends when so many are found
 
     Boxes are swept along the axis that tells them apart best; signs are exact. Releases the interpreter lock.
@@ -39,7 +42,7 @@ def meeting_triangles(triangles: Integers, positions: Floats, around_vertices: b
     low, high = corners.min(axis=1), corners.max(axis=1)
     axis = int(np.argmin((high - low).mean(axis=0) / np.maximum(np.ptp(points[triangles.ravel()], axis=0), 1e-300)))
     order = np.argsort(low[:, axis], kind="stable")
-    only = WITH_COMMON_VERTEX if around_vertices else ALL
+    only = {"all": _ALL, "joined": _JOINED, "apart": _APART}[which]
     found = _sweep(points, triangles[order], low[order], high[order], axis, only, most)
     pairs: Integers = np.sort(order[found], axis=1)
     return pairs[np.lexsort(pairs.T[::-1])]
@@ -58,7 +61,7 @@ def _sweep(points, triangles, low, high, axis, only, most):  # type: ignore[no-u
                 continue
             if low[j, two] > high[i, two] or high[j, two] < low[i, two]:
                 continue
-            if only == WITH_COMMON_VERTEX and _common(triangles[i], triangles[j]) == 0:
+            if only != _ALL and (_common(triangles[i], triangles[j]) == 0) == (only == _JOINED):
                 continue
             if not _meet(points, triangles[i], triangles[j]):
                 continue
