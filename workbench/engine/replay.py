@@ -98,11 +98,12 @@ def replay(
     *,
     interrupt: Interrupt = never,
     on_row: Callable[[HistoryRow], None] | None = None,
+    on_state: Callable[[State], None] | None = None,
 ) -> Replayed:
     """Repeat what led to the map of a session.
 
     Its legs, iteration by iteration; where it has none, the map is taken as it is; where it has no map either, the solver
-    runs from the start until it is done. Raises `WorkbenchError` for whatever does not fit.
+    runs from the start until it is done; `on_state` is told of every map then. Raises `WorkbenchError` for whatever does not fit.
     """
     check_maps(record, opened)
     problem = problem_of(record.session, opened)
@@ -120,6 +121,7 @@ def replay(
             time_limit=session.time_limit,
             interrupt=interrupt,
             on_row=on_row,
+            on_state=on_state,
         )
         return Replayed(problem, solver, initializer, result)
     return _repeat(record, opened, problem, solver, initializer, interrupt, on_row)

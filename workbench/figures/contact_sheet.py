@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.jacobians import determinants, signed_singular_values
+from workbench.figures.colour_scale import INVERTED, colour_scale
 from workbench.figures.mesh_pictures import (
     Skin,
     coloured_picture,
@@ -30,11 +31,6 @@ if TYPE_CHECKING:
 
 LAST = -1
 """The row of the last maps."""
-TRIMMED = 60
-"""Entries of the colour table left out at its pale end, which would be lost on white paper."""
-INVERTED = (1.0, 0.83, 0.0)
-LEAST_SPAN = 1e-3
-"""Of the colour scale, as a part of its lower end: below it nothing differs but by rounding."""
 MOST_SPREAD = 1.8
 """Times the median size that a map may have for all to be drawn on one scale of length."""
 THICKEST = 0.15
@@ -140,23 +136,10 @@ def _square_round(points: Floats) -> tuple[float, float]:
 
 
 def _colour_scale(problem: Problem, columns: Sequence[SheetColumn], skin: Skin) -> ScalarMappable:
-    """One scale for all maps: from the least to all but the worst hundredth; logarithmic where it spans much.
-
-    Where nearly all are at the least, the worst are what there is to see.
-    """
-    import colorcet
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import ListedColormap, LogNorm, Normalize
-
+    """One scale for all maps."""
     maps = [item.positions for column in columns for item in column.maps]
     values = np.concatenate([_upright_distortions(problem, positions, skin) for positions in maps])
-    low, high = (float(values.min()), float(np.quantile(values, 0.99))) if len(values) else (0.0, 1.0)
-    least_span = LEAST_SPAN * abs(low) + 1e-12
-    if len(values) and high < low + least_span:
-        high = float(values.max())
-    high = max(high, low + least_span)
-    norm = LogNorm(low, high) if low > 0 and high > 8 * low else Normalize(low, high)
-    return ScalarMappable(norm, ListedColormap(colorcet.palette["CET_L19"][TRIMMED:]))
+    return colour_scale(values)
 
 
 def _upright_distortions(problem: Problem, positions: Floats, skin: Skin) -> Floats:

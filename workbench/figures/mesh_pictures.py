@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from workbench.figures.raster import Raster, rasterise
 
 PIXELS = 320
 """Of the longer side of a picture."""
+STRIP = 256
+"""Rows of pixels, about, that are drawn at once."""
 FINER = 2
 """Pixels a side that are averaged to one."""
 SQUARES = 14
@@ -66,10 +69,14 @@ def view_of(mesh: Mesh) -> Floats:
 
 @dataclass(frozen=True)
 class Frame:
-    """Part of the plane that a picture shows: its centre and the half of its width and height."""
+    """Part of the plane that a picture shows: its centre and the half of its width and height.
+
+    `density` is the number of pixels of a unit of length; 0 for `PIXELS` along the longer side.
+    """
 
     centre: tuple[float, float]
     half: tuple[float, float]
+    density: float = 0.0
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
@@ -80,8 +87,8 @@ class Frame:
     @property
     def pixels(self) -> tuple[int, int]:
         """Width and height of the picture."""
-        longer = max(self.half)
-        return max(8, round(PIXELS * self.half[0] / longer)), max(8, round(PIXELS * self.half[1] / longer))
+        density = self.density or PIXELS / (2 * max(self.half))
+        return max(8, round(2 * density * self.half[0])), max(8, round(2 * density * self.half[1]))
 
 
 def frame_round(points: Floats, half: tuple[float, float] | None = None) -> Frame:
@@ -91,6 +98,16 @@ def frame_round(points: Floats, half: tuple[float, float] | None = None) -> Fram
         width, height = 0.52 * np.maximum(high - low, 1e-3 * (high - low).max() + 1e-300)
         half = (float(width), float(height))
     return Frame((float(low[0] + high[0]) / 2, float(low[1] + high[1]) / 2), half)
+
+
+def in_strips(draw: Callable[[Frame], Floats], frame: Frame) -> Floats:
+    """A large picture (h, w, 4), drawn strip by strip from the lowest: memory stays that of one strip."""
+    count = max(1, frame.pixels[1] // STRIP)
+    (x, y), (width, height) = frame.centre, frame.half
+    low, step = y - height, 2 * height / count
+    return np.vstack([
+        draw(replace(frame, centre=(x, low + (i + 0.5) * step), half=(width, 0.5 * step))) for i in range(count)
+    ])  # fmt: skip
 
 
 def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, on_top: Booleans | None = None) -> Floats:
