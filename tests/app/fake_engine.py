@@ -26,6 +26,7 @@ from workbench.engine.messages import (
     SetAnchors,
     Snapshot,
     Step,
+    TakeUp,
     Watch,
 )
 
@@ -102,6 +103,10 @@ class FakeWorker:
             self._serial, self._dragging = command.serial, command.dragging
             if len(command.vertices):
                 self._blend(command)
+            self._publish()
+        elif isinstance(command, TakeUp):
+            self._positions, self._serial, self._running = command.positions.copy(), command.anchors.serial, False
+            self._dragging, self._iteration = False, command.iteration
             self._publish()
         elif isinstance(command, Reset):
             self._positions, self._iteration = self._start.copy(), 0

@@ -54,6 +54,11 @@ class Commands(QObject):
         deeds: dict[str, Any] = {
             "open": self.ask_open,
             "save": self.ask_save,
+            "open-session": window.sessions.ask_open,
+            "save-session": window.sessions.save,
+            "save-session-as": window.sessions.ask_save,
+            "undo": window.undoing.undo,
+            "redo": window.undoing.redo,
             "fill": self.filling.ask,
             "refine": self.refining.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),

@@ -84,7 +84,7 @@ class Document(QObject):
         self.anchor_serial = 0
         self.selected = -1
         self.wants_to_run = False
-        self.is_held = False
+        self.is_held = self._is_told = False
         self.opening_source = ""
         self._attempt: Session | None = None
         self._runs_after_open = False
@@ -188,7 +188,7 @@ class Document(QObject):
     def _put(self, session: Session) -> None:
         """Hold these choices and anchors; the engine knows them, or is told by whoever calls."""
         self.session, self.anchors = without_anchors(session), anchors_in(session)
-        self.wants_to_run = self.is_held = False
+        self.wants_to_run = self.is_held = self._is_told = False
         if self.selected not in self.anchors:
             self.select(-1)
         self.session_changed.emit()
@@ -229,7 +229,7 @@ class Document(QObject):
         self.opening_source = ""
         self.loaded = report
         self.snapshot = None
-        self.wants_to_run = self.is_held = False
+        self.wants_to_run = self.is_held = self._is_told = False
         self.selected = -1
         self.anchors = AnchorSet.none()
         self._send_anchors(False)
@@ -435,8 +435,9 @@ class Document(QObject):
         """Take these anchors; `at` is the time of the event behind it, for the drag meter."""
         if self.mesh is None:
             return
-        if not self.is_held and anchors != self.anchors:  # a drag is one step
+        if anchors != self.anchors and not self._is_told:  # a drag is one step
             self._announce(name_of_anchor_change(self.anchors, anchors))
+        self._is_told = dragging and (self._is_told or anchors != self.anchors)
         self.is_held = dragging
         self._put_anchors(anchors, dragging, at)
 

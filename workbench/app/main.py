@@ -37,6 +37,7 @@ def run_window(
     window = MainWindow(switch, settings)
     window.show()
     window.start(source or "")
+    window.autosave.start()
     # the engine's thread shares the interpreter: it shall give the window its turn soon
     interval = sys.getswitchinterval()
     sys.setswitchinterval(0.001)

@@ -35,6 +35,10 @@ from workbench.app.progress_bar import ProgressLine
 from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.reporter import Reporter
+from workbench.app.sessions.autosave import Autosave
+from workbench.app.sessions.session_files import SessionFiles
+from workbench.app.sessions.undo_dock import UndoDock
+from workbench.app.sessions.undoing import Undoing
 from workbench.app.settings import Settings
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.status_line import StatusLine
@@ -75,6 +79,7 @@ class MainWindow(QMainWindow):
         self.settings = settings
         self.bridge = EngineBridge(make_worker)
         self.document = Document(self.bridge)
+        self.undoing = Undoing(self.document)
         self.history = History()
         self.switches = Switches(self.document, self.history)
         self.brush = SimplexBrush(self)
@@ -97,6 +102,8 @@ class MainWindow(QMainWindow):
         self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
         self._make_tools()
         self.anchor_menu = AnchorMenu(self)
+        self.sessions = SessionFiles(self)
+        self.autosave = Autosave(self)
         self.commands = Commands(self)
         fill_menus(self)
         fill_tool_bar(self)
@@ -166,7 +173,11 @@ class MainWindow(QMainWindow):
         self.resizeDocks([self.histogram], [230], Qt.Orientation.Vertical)
         self.inspector = InspectorDock(self.document, self.brush, self.theme, self)
         self.inspector.settle(self, self.maps)
-        self.docks: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence, self.inspector]
+        self.steps = UndoDock(self.undoing, self.actions_by_name["undo"], self.actions_by_name["redo"], self)
+        self.addDockWidget(LEFT, self.steps)
+        self.steps.hide()
+        first: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
+        self.docks: list[QDockWidget] = [*first, self.inspector, self.steps]
 
     def _make_status(self) -> None:
         self.status = StatusLine(self)
@@ -275,6 +286,8 @@ class MainWindow(QMainWindow):
         """Open a file, or `sample:ID`."""
         if source.startswith("sample:"):
             self.document.open_sample(source.removeprefix("sample:"))
+        elif self.sessions.takes(source):
+            self.sessions.open(str(Path(source).expanduser()))
         else:
             self.document.open(str(Path(source).expanduser()))
 
@@ -299,7 +312,11 @@ class MainWindow(QMainWindow):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Timers, engine, threads, views; then Qt's own."""
+        if not self._is_closed and self.sessions.keeps_from_closing():
+            event.ignore()
+            return
         if not self._is_closed:
+            self.autosave.end()
             self._is_closed = True
             self.settings.save_layout(self.saveGeometry(), self.saveState())
             self.settings.save_views(self.view_memory.state())
@@ -313,6 +330,7 @@ class MainWindow(QMainWindow):
             self.desk.forget()
             self.bridge.close()
             self._finder.wait()
+            self.undoing.wait()
             self.inspector.wait()
             self.commands.wait()
             self.carried.wait()

@@ -30,6 +30,11 @@ def fill_menus(window: MainWindow) -> None:
     samples = file_menu.addMenu("S&amples")
     samples.aboutToShow.connect(lambda: fill_samples(window, samples))
     file_menu.addSeparator()
+    for name in ("open-session", "save-session", "save-session-as"):
+        file_menu.addAction(actions[name])
+    sessions = file_menu.addMenu("Recent sessio&ns")
+    sessions.aboutToShow.connect(lambda: window.sessions.fill_recent(sessions))
+    file_menu.addSeparator()
     file_menu.addAction(actions["save"])
     file_menu.addAction(actions["fill"])
     carried = file_menu.addMenu("Carry a sur&face")
@@ -39,6 +44,9 @@ def fill_menus(window: MainWindow) -> None:
     file_menu.addSeparator()
     file_menu.addAction(actions["quit"])
     edit = bar.addMenu("&Edit")
+    for name in ("undo", "redo"):
+        edit.addAction(actions[name])
+    edit.addSeparator()
     for name in ("pin", "box", "remove", "clear"):
         edit.addAction(actions[name])
     edit.addSeparator()

@@ -136,7 +136,7 @@ class Reporter(QObject):
         if not is_sample(source):
             window.settings.remember_file(source)
         name = source_name(source)
-        window.setWindowTitle(f"{name} – Distortion Workbench")
+        window.sessions.show_title()
         mesh = loaded.mesh
         simplices = f"{counted(mesh.simplex_count)} {mesh.simplex_noun(mesh.simplex_count)}"
         window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {simplices}")

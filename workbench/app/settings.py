@@ -39,6 +39,18 @@ class Settings:
         self._store.setValue("recent", [])
 
     @property
+    def recent_sessions(self) -> list[str]:
+        """Newest first; files that are gone are left out."""
+        value: Any = self._store.value("sessions", [])
+        paths = [value] if isinstance(value, str) else list(value or [])
+        return [str(p) for p in paths if p and Path(str(p)).is_file()]
+
+    def remember_session(self, path: str) -> None:
+        full = str(Path(path).resolve())
+        others = [p for p in self.recent_sessions if p != full]
+        self._store.setValue("sessions", [full, *others][:RECENT_COUNT])
+
+    @property
     def recent_formulas(self) -> list[str]:
         """Newest first."""
         value: Any = self._store.value("formulas", [])

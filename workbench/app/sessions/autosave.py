@@ -1,0 +1,161 @@
+"""The last good state, kept every few seconds, and offered at the next start where the window did not end by itself."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from platformdirs import user_data_path
+from PySide6.QtCore import QLockFile, QObject, Qt, QTimer
+from PySide6.QtWidgets import QMessageBox
+
+from workbench.app.sessions.session_desk import Found
+from workbench.core.errors import WorkbenchError
+from workbench.engine.session_file import ENDING, read_session, source_trouble
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+INTERVAL = 4000
+"""Milliseconds between two looks at whether there is something to keep: at most ten seconds are lost."""
+LAST = "last" + ENDING
+"""Name of what was not saved when the window was closed."""
+
+
+@dataclass(frozen=True)
+class Left:
+    """What a window left behind that did not end by itself."""
+
+    path: Path
+    lock: QLockFile
+
+    def discard(self) -> None:
+        """Forget it."""
+        for path in (self.path, self.path.with_suffix(".name")):
+            path.unlink(missing_ok=True)
+        self.lock.unlock()
+
+
+def recovery_folder() -> Path:
+    """Where states are kept."""
+    return user_data_path("distortion-workbench", appauthor=False) / "recovery"
+
+
+class Autosave(QObject):
+    """Writes to a file of its own, beside a lock that ends with the process: so the next start knows that it was left."""
+
+    def __init__(self, window: MainWindow, folder: Path | None = None) -> None:
+        super().__init__(window)
+        self._window = window
+        self._desk = window.sessions.desk
+        self._folder = folder or recovery_folder()
+        self._lock: QLockFile | None = None
+        self.path = self._folder / f"{int(time.time())}-{secrets.token_hex(4)}{ENDING}"
+        self._kept: tuple[object, ...] = ()
+        self._offered: list[Left] = []
+        self._timer = QTimer(self)
+        self._timer.setInterval(INTERVAL)
+        self._timer.timeout.connect(self.keep)
+
+    def start(self) -> None:
+        """Keep states from now on, and offer what was left behind."""
+        with suppress(OSError):
+            self._folder.mkdir(parents=True, exist_ok=True)
+            self.offer()
+            self._lock = _locked(self.path)
+            self._timer.start()
+
+    def keep(self) -> None:
+        """Write the state as it is now, if it is another one and there is something that could be lost."""
+        document, desk = self._window.document, self._desk
+        if not desk.is_modified or not desk.has_something or desk.is_busy or document.snapshot is None:
+            return
+        now = (document.session, document.anchors, document.snapshot.number, document.generation)
+        if now != self._kept:
+            self._kept = now
+            with suppress(OSError):
+                self.path.with_suffix(".name").write_text(json.dumps(desk.path), encoding="utf-8")
+            desk.save(str(self.path), is_copy=True)
+
+    def end(self) -> None:
+        """The window ends by itself: nothing was lost. What has no file is kept as the last session."""
+        self._timer.stop()
+        desk = self._desk
+        desk.wait()
+        if self._lock is None:
+            return
+        with suppress(OSError, WorkbenchError):
+            if desk.is_modified and not desk.path and desk.has_something:
+                self.keep_last()
+            Left(self.path, self._lock).discard()
+        for left in self._offered:
+            left.lock.unlock()
+
+    def keep_last(self) -> None:
+        """Write the session of this window as the last one."""
+        from workbench.engine.session_file import write_session
+
+        write_session(self._folder / LAST, self._desk.record())
+
+    @property
+    def last(self) -> Path | None:
+        """What was not saved when a window was closed last; None where there is nothing."""
+        path = self._folder / LAST
+        return path if path.is_file() else None
+
+    # ------------------------------------------------------------------------------------------ recovery
+
+    def offer(self) -> None:
+        """Ask what is to be done with the newest state that a window left behind; older ones stay for the next starts."""
+        for path in sorted(self._folder.glob(f"*-*{ENDING}"), reverse=True):
+            lock = _locked(path)
+            if lock is not None:
+                self._offered.append(Left(path, lock))
+                self._ask(self._offered[-1])
+                return
+
+    def _ask(self, left: Left) -> None:
+        try:
+            record = read_session(left.path)
+            source = Path(record.session.source).name
+            words = f"{source}, {len(record.session.anchor_vertices)} anchors"
+        except WorkbenchError:
+            left.discard()
+            return
+        found = Found(str(left.path), record, source_trouble(record))
+        box = QMessageBox(self._window)
+        box.setObjectName("recovery")
+        box.setIcon(QMessageBox.Icon.Question)
+        box.setWindowTitle("Work that was not saved")
+        when = time.strftime("%H:%M:%S on %d %B", time.localtime(left.path.stat().st_mtime))
+        box.setText("The window did not end by itself last time.")
+        box.setInformativeText(f"Its last state is of {when}: {words}.")
+        recover = box.addButton("Recover", QMessageBox.ButtonRole.AcceptRole)
+        discard = box.addButton("Discard", QMessageBox.ButtonRole.DestructiveRole)
+        ignore = box.addButton("Not now", QMessageBox.ButtonRole.RejectRole)
+        box.setDefaultButton(recover)
+        box.setEscapeButton(ignore)
+        recover.clicked.connect(lambda: self._recover(left, found))
+        discard.clicked.connect(left.discard)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+    def _recover(self, left: Left, found: Found) -> None:
+        """Go to it; the file is forgotten once this window has a state of its own."""
+        if found.trouble:
+            self._desk.mesh_wanted.emit(found)
+            return
+        self._desk.open(found, keeps_path=False)
+        left.discard()
+
+
+def _locked(path: Path) -> QLockFile | None:
+    """The lock beside a state; None while the window that it belongs to lives."""
+    lock = QLockFile(str(path.with_suffix(".lock")))
+    lock.setStaleLockTime(0)
+    return lock if lock.tryLock(0) else None

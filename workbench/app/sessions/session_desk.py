@@ -1,0 +1,183 @@
+"""Saving and opening sessions from the window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.background import Background
+from workbench.app.document import Document
+from workbench.core.distortion import Distortion
+from workbench.core.errors import WorkbenchError
+from workbench.core.registry import registry
+from workbench.engine.session_file import read_session, source_digest, source_trouble, write_session
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
+from workbench.session.text import ANCHORS, LEG_CHOICES
+
+FILTERS = "Sessions (*.dwb);;Sessions without their maps (*.json)"
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A session that was read, and what is amiss with its mesh."""
+
+    path: str
+    record: SessionRecord
+    trouble: str
+
+
+class SessionDesk(QObject):
+    """Reads and writes on threads. `path` is the file of the present session; empty where it has none.
+
+    A session counts as modified from the first step on that a save does not hold.
+    """
+
+    said = Signal(str)
+    failed = Signal(object)
+    changed = Signal()
+    mesh_wanted = Signal(object)
+    """A `Found` whose mesh is missing or another one: the user is asked for it."""
+    saved = Signal(str)
+
+    def __init__(self, document: Document) -> None:
+        super().__init__(document)
+        self._document = document
+        self._works: list[Background] = []
+        self.path = ""
+        self.is_modified = False
+        self._pending_path: str | None = None
+        self._digests: dict[int, str] = {}
+        document.changing.connect(self._modify)
+        document.opened.connect(self._opened)
+
+    @property
+    def has_something(self) -> bool:
+        """Whether there is anything to save."""
+        return self._document.loaded is not None and self._document.snapshot is not None
+
+    # ------------------------------------------------------------------------------------------ saving
+
+    def record(self) -> SessionRecord:
+        """All that the file of the present session holds; the sha256 of its mesh is found while it is written."""
+        document = self._document
+        snapshot, session = document.snapshot, document.complete_session
+        assert snapshot is not None
+        legs = document.journal.way_to(snapshot.leg, snapshot.row.iteration)
+        is_told = snapshot.anchor_serial == document.anchor_serial and snapshot.distortion == session.distortion
+        is_settled = snapshot.phase in ("idle", "finished") and not document.is_held
+        if is_told and not is_settled:
+            is_told = bool(legs) and _agree(legs[-1].choices, session)
+        return SessionRecord(session, "", snapshot.positions, legs, snapshot.row.energy if is_told else None)
+
+    def save(self, path: str, *, is_copy: bool = False) -> None:
+        """Write the session as it is now, on a thread; a copy leaves name and mark of the window alone."""
+        if not self.has_something:
+            return
+        record, generation = self.record(), self._document.generation
+        was_modified, self.is_modified = self.is_modified, self.is_modified if is_copy else False
+
+        def work() -> str:
+            digest = self._digests.get(generation)
+            if digest is None:
+                digest = self._digests[generation] = source_digest(record.session.source)
+            write_session(path, replace(record, sha256=digest))
+            return path
+
+        def done(_: Any) -> None:
+            if not is_copy:
+                self.path = path
+                self.said.emit(f"Saved {path}.")
+                self.saved.emit(path)
+                self.changed.emit()
+
+        def failed(error: Exception) -> None:
+            self.is_modified = self.is_modified or was_modified
+            self.failed.emit(error)
+            self.changed.emit()
+
+        self._begin(work, done, failed)
+
+    # ------------------------------------------------------------------------------------------ opening
+
+    def read(self, path: str) -> None:
+        """Read a session and go to it; a mesh that is missing or changed is asked for."""
+
+        def work() -> Found:
+            record = read_session(path)
+            check_choices(record.session)
+            return Found(path, record, source_trouble(record))
+
+        def done(found: Found) -> None:
+            if found.trouble:
+                self.mesh_wanted.emit(found)
+            else:
+                self.open(found)
+
+        self._begin(work, done, self.failed.emit)
+
+    def open(self, found: Found, mesh: str = "", *, keeps_path: bool = True) -> None:
+        """Go to a session, on its own mesh or on `mesh`."""
+        record = found.record
+        session = replace(record.session, source=mesh) if mesh else record.session
+        self._pending_path = found.path if keeps_path else ""
+        positions = record.map
+        self._document.restore(session, positions)
+        if not self._document.opening_source:
+            self._opened()
+
+    # ------------------------------------------------------------------------------------------ name and mark
+
+    def _opened(self) -> None:
+        path, self._pending_path = self._pending_path, None
+        self.path = path or ""
+        self.is_modified = path == ""
+        self.changed.emit()
+
+    def _modify(self, name: str, key: str) -> None:
+        if name != "Open" and not self.is_modified:
+            self.is_modified = True
+            self.changed.emit()
+
+    def mark_modified(self) -> None:
+        """The session is not as its file has it any longer."""
+        self._modify("", "")
+
+    # ------------------------------------------------------------------------------------------ threads
+
+    def _begin(self, work: Callable[[], Any], done: Callable[[Any], None], failed: Callable[[Any], None]) -> None:
+        background = Background(work, self)
+        self._works.append(background)
+
+        def end(deed: Callable[[Any], None], result: Any) -> None:
+            self._works.remove(background)
+            deed(result)
+
+        background.finished.connect(lambda result: end(done, result))
+        background.failed.connect(lambda error: end(failed, error))
+        background.start()
+
+    @property
+    def is_busy(self) -> bool:
+        return bool(self._works)
+
+    def wait(self) -> None:
+        for work in list(self._works):
+            work.wait()
+
+
+def check_choices(session: Session) -> None:
+    """Raises `WorkbenchError` for a formula or a method that there is not, before anything is opened for it."""
+    Distortion.resolve(session.distortion, session.distortion_parameters)
+    registry().solver(session.solver).configured(dict(session.solver_parameters))
+    if session.initializer:
+        registry().initializer(session.initializer).configured(dict(session.initializer_parameters))
+    if any(weight < float("inf") for weight in session.anchor_weights):
+        raise WorkbenchError("Its anchors have weights, and those of the window are hard; `workbench run` repeats it.")
+
+
+def _agree(one: Session, other: Session) -> bool:
+    return all(getattr(one, name) == getattr(other, name) for name in (*LEG_CHOICES, *ANCHORS))

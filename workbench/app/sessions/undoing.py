@@ -1,0 +1,166 @@
+"""Undo and redo of what the user did to the document."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.anchor_set import AnchorSet
+from workbench.app.background import Background
+from workbench.app.document import Document
+from workbench.app.reporter import source_name
+from workbench.app.sessions.restoring import is_on_same_source, with_anchors
+from workbench.app.switches import switched
+from workbench.core.arrays import Floats
+from workbench.core.jacobians import build_elements, determinants
+from workbench.session.session import Session
+from workbench.session.undo import UndoHistory
+
+MEMORY = 2**28
+"""Bytes of maps that are kept for undoing."""
+PAUSE = 1.0
+"""Seconds without a change after which the next one of the same kind is another step: drawing a slider makes one."""
+NAMES = {
+    "initializer": "Start",
+    "start_file": "Start",
+    "match_area": "Scale",
+    "fixed_boundary": "Boundary",
+    "allow_inversions": "Inversions",
+    "distortion": "Distortion",
+    "solver": "Solver",
+}
+"""What a choice is called where there are no better words."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What a step may change: choices, anchors, and whether the solver ran."""
+
+    session: Session
+    anchors: AnchorSet
+    runs: bool
+
+
+class Undoing(QObject):
+    """Keeps the moment before each step, and brings it back; `changed` tells that the list is another one."""
+
+    changed = Signal()
+    gone = Signal()
+    """Went back or forth."""
+
+    def __init__(self, document: Document) -> None:
+        super().__init__(document)
+        self._document = document
+        self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round)
+        self._key = ""
+        self._changed_at = 0.0
+        self._packing: Background | None = None
+        document.changing.connect(self._begin_step)
+        document.session_changed.connect(self._name_step)
+        document.anchors_changed.connect(self._forget_if_nothing)
+        document.refused.connect(lambda _: self._forget_if_nothing(even_if_held=True))
+        document.opened.connect(self._name_step)
+
+    @property
+    def _chosen(self) -> Chosen:
+        document = self._document
+        return Chosen(document.session, document.anchors, document.wants_to_run)
+
+    # ------------------------------------------------------------------------------------------ steps
+
+    def _begin_step(self, name: str, key: str) -> None:
+        now = time.monotonic()
+        is_same = bool(key) and key == self._key and now - self._changed_at < PAUSE
+        self._key, self._changed_at = key, now
+        if is_same and self.history.done == len(self.history.names) and self.history.done:
+            return
+        self.history.begin_step(name, self._chosen, self._document.positions)
+        self._pack()
+        self.changed.emit()
+
+    def _name_step(self) -> None:
+        """Call the newest step by what has become of it."""
+        last = self.history.last
+        if last is None or self.history.redo_name or not self._key_is_of_choice():
+            return
+        before, after = last.choices.session, self._document.session
+        if not is_on_same_source(before, after):
+            words = f"Open {source_name(after.source)}"
+            if before.source == after.source:
+                words = f"Fix {', '.join(after.fixes)}" if before.fixes != after.fixes else "Kind of map"
+        else:
+            words = switched(before, after) or next(
+                (name for field, name in NAMES.items() if getattr(before, field) != getattr(after, field)), ""
+            )
+        if words:
+            self.history.rename_last(words)
+            self.changed.emit()
+
+    def _key_is_of_choice(self) -> bool:
+        return self.history.undo_name in ("Choose", "Open") or self._key not in ("", "step")
+
+    def _forget_if_nothing(self, even_if_held: bool = False) -> None:
+        """A drag that was taken back, or a choice that was refused, is no step."""
+        last = self.history.last
+        if last is None or self.history.redo_name or (self._document.is_held and not even_if_held):
+            return
+        chosen = self._chosen
+        before = last.choices
+        is_deed = self.history.undo_name in ("Run", "Step", "Reset", "Take a map", "Start", "Scale", "Open")
+        if (before.session, before.anchors) == (chosen.session, chosen.anchors) and not is_deed:
+            self.history.forget_last()
+            self.changed.emit()
+
+    # ------------------------------------------------------------------------------------------ going back and forth
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        self.go_to(self.history.done - 1)
+
+    def redo(self) -> None:
+        """Do the step again that was taken back last."""
+        self.go_to(self.history.done + 1)
+
+    def go_to(self, done: int) -> None:
+        """The moment at which the first `done` steps were done. Not while a hand holds an anchor, or a mesh is being read."""
+        document = self._document
+        if document.is_held or document.opening_source or not 0 <= done <= len(self.history.names):
+            return
+        self._key = ""
+        moment = self.history.go_to(done, self._chosen, document.positions)
+        chosen = moment.choices
+        document.restore(with_anchors(chosen.session, chosen.anchors), moment.positions, run=chosen.runs)
+        self.changed.emit()
+        self.gone.emit()
+
+    # ------------------------------------------------------------------------------------------ memory
+
+    def _pack(self) -> None:
+        if self._packing is None:
+            self._packing = Background(self._tidy, self)
+            self._packing.finished.connect(lambda _: self._packed())
+            self._packing.failed.connect(lambda _: self._packed())
+            self._packing.start()
+
+    def _tidy(self) -> None:
+        """On a thread of its own."""
+        self.history.pack()
+        self.history.trim()
+
+    def _packed(self) -> None:
+        self._packing = None
+        self.changed.emit()
+
+    def _may_round(self, positions: Floats) -> bool:
+        """Whether a map in float32 still has no inverted simplex, on the mesh that is open now."""
+        mesh = self._document.mesh
+        if mesh is None or positions.shape != (mesh.vertex_count, mesh.dimension):
+            return False
+        return bool(np.all(determinants(build_elements(mesh), positions) > 0))
+
+    def wait(self) -> None:
+        if self._packing is not None:
+            self._packing.wait()
