@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -11,7 +12,7 @@ from workbench.app.colouring import Colouring
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
 from workbench.app.handling.gizmo import gizmo_of
-from workbench.app.panel_turns import PanelTurns
+from workbench.app.panel_turns import SOON, PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.views.brush_mark import BrushedParts
 from workbench.app.views.drawn_faces import DrawnFaces
@@ -59,10 +60,7 @@ class Presenter(QObject):
         self._faces: DrawnFaces | None = None
         self._hovered = -1
         self._fits_next = False
-        self._late_marks = QTimer(self)
-        self._late_marks.setSingleShot(True)
-        self._late_marks.setInterval(MARKS_WAIT)
-        self._late_marks.timeout.connect(self._draw_marks)
+        self._late_marks = self._timer(MARKS_WAIT, self._draw_marks)
         self.target.drawn.connect(turns.main_is_drawn)
         turns.add(self.source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
@@ -71,14 +69,20 @@ class Presenter(QObject):
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
         brush.changed.connect(self._show_brush)
-        self._late_look = QTimer(self)  # moves of a slider that came while a picture was drawn become one
-        self._late_look.setSingleShot(True)
-        self._late_look.setInterval(0)
-        self._late_look.timeout.connect(self._look_again)
+        # slider moves that came while a picture was drawn become one; the large views are painted each in a pass of its own
+        self._late_look, self._late_source = self._timer(0, self._look_again), self._timer(SOON, self._draw_source)
         volume.changed.connect(self._late_look.start)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         self.clear()
+
+    def _timer(self, milliseconds: int, deed: Callable[[], None]) -> QTimer:
+        """Does a deed once, so long after it was started last."""
+        timer = QTimer(self)
+        timer.setSingleShot(True)
+        timer.setInterval(milliseconds)
+        timer.timeout.connect(deed)
+        return timer
 
     # ------------------------------------------------------------------------------------------ meshes
 
@@ -182,7 +186,7 @@ class Presenter(QObject):
         for view in self._views:
             if view.surface is not None:
                 view.surface.ghost.show(shell, look.ghost, as_wires=look.is_wired)
-        self._draw_source()
+        self._late_source.start()
         self._draw_soon()
 
     def _draw_soon(self) -> None:
@@ -242,6 +246,7 @@ class Presenter(QObject):
     def stop(self) -> None:
         self._late_marks.stop()
         self._late_look.stop()
+        self._late_source.stop()
 
     def _draw_marks(self) -> None:
         """Paint the layers above anew; the pictures below stay as they are."""
