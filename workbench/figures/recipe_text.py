@@ -107,6 +107,7 @@ def recipe_of(plain: Mapping[str, Any]) -> Recipe:
     panels = tuple(_panel_of(item, f"panel {i + 1}", page, names) for i, item in enumerate(rows))
     if not any(panel.kind != "empty" for panel in panels):
         raise WorkbenchError("The recipe has no panel; a figure needs one at least.")
+    _check_scales(panels)
     return Recipe(page, maps, panels)
 
 
@@ -137,6 +138,20 @@ def _panel_of(plain: Any, what: str, page: Page, names: list[str]) -> Panel:
     if panel.span > page.columns:
         raise WorkbenchError(f"{what} takes {panel.span} columns, and the page has {page.columns}.")
     return panel
+
+
+def _check_scales(panels: tuple[Panel, ...]) -> None:
+    """Raise `WorkbenchError` where a scale is shared by two measures, or a colour bar by no map."""
+    measures: dict[str, tuple[str, dict[str, float]]] = {}
+    for panel in panels:
+        if panel.scale and panel.has_measure and panel.kind != "curves":
+            first = measures.setdefault(panel.scale, (panel.colour, dict(panel.parameters)))
+            if first != (panel.colour, dict(panel.parameters)):
+                raise WorkbenchError(f"The scale {panel.scale!r} is shared by {first[0]} and {panel.colour}; give each its own.")
+    drawn = {panel.scale for panel in panels if panel.is_picture and panel.has_measure}
+    bare = next((panel.scale for panel in panels if panel.kind == "colour-bar" and panel.scale not in drawn), None)
+    if bare is not None:
+        raise WorkbenchError(f"No map has the scale {bare!r} that a colour bar belongs to.")
 
 
 def _checked(plain: Any, checks: Mapping[str, schema.Check], what: str) -> dict[str, Any]:

@@ -16,6 +16,9 @@ FORMATS = (".png", ".pdf", ".svg")
 
 NO_DATES = {".png": {"Software": None}, ".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
 
+SETTINGS = {"svg.hashsalt": "figure", "pdf.fonttype": 42}
+"""Names inside an SVG are drawn by lot unless they are salted; publishers want the fonts of a PDF as outlines."""
+
 
 def check_format(path: str | os.PathLike[str]) -> str:
     """The ending of `path`. Raises `WorkbenchError` unless it is one of `FORMATS`."""
@@ -33,11 +36,10 @@ def settle(figure: Figure) -> None:
         figure.set_layout_engine("none")
 
 
-def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write `figure` in the format of the ending of `path`. Raises `WorkbenchError` where that cannot be."""
+def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 160) -> None:
+    """Write `figure` in the format of the ending of `path`; `dpi` is that of pixels. Raises `WorkbenchError` where that cannot be."""
     import matplotlib
 
     ending = check_format(path)
-    # names inside an SVG are drawn by lot unless they are salted
-    with replacing(path) as part, matplotlib.rc_context({"svg.hashsalt": "figure"}):
-        figure.savefig(part, format=ending[1:], dpi=160, metadata=NO_DATES[ending])
+    with replacing(path) as part, matplotlib.rc_context(SETTINGS):
+        figure.savefig(part, format=ending[1:], dpi=dpi, metadata=NO_DATES[ending])

@@ -1,0 +1,125 @@
+"""Charts of a figure: colour bars, histograms, curves; text is drawn as it stands, never as mathematics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.signature import Signature, densities
+from workbench.figures.colour_scale import LOGARITHMIC
+from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS
+from workbench.figures.recipe import QUANTITIES
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+    from workbench.figures.figure_maps import FigureMap
+
+TICKS = 5
+"""Numbers beside a colour bar, at the most."""
+FIELDS = {"energy": "energy", "gradient-norm": "gradient_norm", "inverted": "inverted"}
+MOST_MARKED = 30
+"""Steps of a curve up to which each has its mark."""
+
+
+def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) -> None:
+    """A horizontal colour bar with its words below; an arrow at the end beyond which there are values."""
+    figure = axes.figure
+    bar = figure.colorbar(paint, cax=axes, orientation="horizontal", extend="max", extendfrac=0.03)
+    bar.solids.set_edgecolor("face")  # no hairlines between its parts
+    low, high = float(bar.vmin), float(bar.vmax)
+    places = tick_places(low, high, is_logarithmic=low > 0 and high > LOGARITHMIC * low)
+    bar.set_ticks(places, labels=[f"{place:.4g}" for place in places])
+    bar.minorticks_off()
+    bar.outline.set_linewidth(0.4)
+    axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.15 * font_size)
+    axes.set_xlabel(label, fontsize=0.95 * font_size, labelpad=0.2 * font_size, parse_math=False)
+
+
+def tick_places(low: float, high: float, *, is_logarithmic: bool) -> list[float]:
+    """Up to `TICKS` round numbers between two, in ascending order; the two themselves where fewer than two are round."""
+    from matplotlib.ticker import MaxNLocator
+
+    if is_logarithmic:
+        powers = range(int(np.floor(np.log10(low))), int(np.ceil(np.log10(high))) + 1)
+        found = [digit * 10.0**power for power in powers for digit in (1, 2, 5)]
+        if sum(low <= place <= high for place in found) > TICKS:
+            found = [10.0**power for power in powers]
+    else:
+        found = [float(place) for place in MaxNLocator(TICKS - 1, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)]
+    slack = 1e-9 * (high - low)
+    inside = [place for place in found if low - slack <= place <= high + slack]
+    step = -(-len(inside) // TICKS) if inside else 1
+    return inside[::step] if len(inside) >= 2 else [low, high]
+
+
+def draw_histograms(
+    axes: Axes,
+    items: Sequence[Signature],
+    edges: Floats,
+    label: str,
+    font_size: float,
+    *,
+    is_logarithmic: bool,
+    paint: ScalarMappable | None = None,
+) -> None:
+    """Normalised histograms over common bins, in the colours of a colour bar where there is one map and one bar."""
+    heights = [densities(item, edges) for item in items]
+    if len(items) == 1:
+        colours = COLOURS[0] if paint is None else paint.to_rgba(np.clip(0.5 * (edges[1:] + edges[:-1]), *paint.get_clim()))
+        axes.bar(edges[:-1], heights[0], np.diff(edges), align="edge", color=colours, linewidth=0)
+        axes.stairs(heights[0], edges, color="#303030", linewidth=0.05 * font_size)
+    else:
+        for index, (item, height) in enumerate(zip(items, heights, strict=True)):
+            colour = COLOURS[index % len(COLOURS)]
+            axes.stairs(height, edges, color=colour, alpha=0.18, fill=True)
+            axes.stairs(height, edges, color=colour, linewidth=0.14 * font_size, label=item.name)
+        _legend(axes, font_size)
+    if is_logarithmic:
+        axes.set_xscale("log")
+        places = tick_places(float(edges[0]), float(edges[-1]), is_logarithmic=True)
+        axes.minorticks_off()
+        axes.set_xticks(places, labels=[f"{place:.4g}" for place in places])
+    axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, None))
+    _words(axes, label, "density", font_size)
+
+
+def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size: float) -> None:
+    """A quantity over the iterations, a curve a map."""
+    least, most = np.inf, 0.0
+    for index, item in enumerate(maps):
+        x = [row.iteration for row in item.rows]
+        y = np.array([getattr(row, FIELDS[quantity]) for row in item.rows], dtype=float)
+        y[~np.isfinite(y)] = np.nan
+        shown = y[y > 0]
+        least, most = min(least, *shown, np.inf), max(most, *shown, 0.0)
+        mark = MARKS[index % len(MARKS)]
+        axes.plot(
+            x, y, color=COLOURS[index % len(COLOURS)], linestyle=DASHES[index % len(DASHES)], marker=mark,
+            markevery=max(1, len(x) // MOST_MARKED), ms=0.3 * font_size, linewidth=0.13 * font_size, label=item.title,
+        )  # fmt: skip
+    if quantity != "inverted" and most > LOGARITHMIC * least:
+        axes.set_yscale("log")
+        axes.minorticks_off()
+    if len(maps) > 1:
+        _legend(axes, font_size)
+    _words(axes, "iterations", QUANTITIES[quantity], font_size)
+
+
+def _legend(axes: Axes, font_size: float) -> None:
+    legend = axes.legend(fontsize=0.85 * font_size, frameon=False, handlelength=1.8, borderaxespad=0.2, labelspacing=0.25)
+    for text in legend.get_texts():
+        text.set_parse_math(False)
+
+
+def _words(axes: Axes, below: str, left: str, font_size: float) -> None:
+    axes.set_xlabel(below, fontsize=0.95 * font_size, labelpad=0.2 * font_size, parse_math=False)
+    axes.set_ylabel(left, fontsize=0.95 * font_size, labelpad=0.3 * font_size, parse_math=False)
+    axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.spines[["left", "bottom"]].set_linewidth(0.5)
+    axes.patch.set_alpha(0.0)

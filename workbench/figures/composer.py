@@ -1,0 +1,255 @@
+"""From a recipe and its maps to a figure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.errors import WorkbenchError
+from workbench.core.measure import DESCRIPTORS, Measure
+from workbench.core.signature import Signature, common_edges
+from workbench.figures.charts import draw_bar, draw_curves, draw_histograms
+from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale
+from workbench.figures.figure_maps import FigureMap
+from workbench.figures.mesh_panel import MOST_VECTORS, Scene, draw_scene, frame_in, scene_of
+from workbench.figures.mesh_pictures import frame_round
+from workbench.figures.page_layout import MM_OF_POINT, Box, Cell, PageLayout, Place, lay_out
+from workbench.figures.recipe import Panel, Recipe
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.figure import Figure
+
+MOST_SPREAD = 1.8
+"""Times the median size up to which maps of one frame are drawn on one scale of length."""
+CENTRED = ("average-singular-value", *DESCRIPTORS)
+"""Measures that are factors: 1 stands for no distortion."""
+USUAL_TEXT = 8.0
+"""Font size at which lines have their usual width, points."""
+LETTER_WIDTH = 0.56
+"""Of a letter, as a part of the font size, about."""
+
+
+@dataclass(frozen=True, eq=False)
+class Composition:
+    """A figure, and sentences about what of it is no vector drawing, and why."""
+
+    figure: Figure
+    notes: tuple[str, ...]
+
+
+def compose(recipe: Recipe, maps: Mapping[str, FigureMap]) -> Composition:
+    """The figure of a recipe. Raises `WorkbenchError` for what the maps have not, or measures that fit no map."""
+    import matplotlib
+
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()  # the same whatever the user's own settings are
+        return _Composer(recipe, maps).compose()
+
+
+def title_of(measure: Measure) -> str:
+    """Words for a measure: its label, with its equation where it has one."""
+    from workbench.core.registry import registry
+
+    known = registry().distortions.get(measure.text)
+    if known is None:
+        return DESCRIPTORS.get(measure.id, measure.id)
+    equation = re.match(r"\(\d+\)(-\(\d+\))?", known.citation)
+    values = ", ".join(f"{name} = {value:g}" for name, value in measure.parameters)
+    words = f"{known.label} {equation.group() if equation else ''}".strip()
+    return f"{words}, {values}" if values else words
+
+
+def measure_of(panel: Panel) -> Measure:
+    return Measure.of(panel.colour, panel.parameters)
+
+
+@dataclass(eq=False)
+class _Composer:
+    recipe: Recipe
+    maps: Mapping[str, FigureMap]
+    notes: list[str] = field(default_factory=list)
+
+    def compose(self) -> Composition:
+        from matplotlib.figure import Figure
+
+        page = self.recipe.page
+        layout = self._layout()
+        figure = Figure(figsize=(layout.width / 25.4, layout.height / 25.4), dpi=page.dpi)
+        if page.background == "transparent":
+            figure.patch.set_alpha(0.0)
+        if page.title:
+            line = 1.25 * page.font_size * MM_OF_POINT / layout.height
+            figure.text(0.5, 1 - 0.9 * line, page.title, ha="center", va="center", fontsize=1.2 * page.font_size, parse_math=False)
+        self._draw_all(figure, layout)
+        return Composition(figure, tuple(self.notes))
+
+    # ------------------------------------------------------------------------------------------ what is shown
+
+    @cached_property
+    def scenes(self) -> dict[int, Scene]:
+        return {
+            index: scene_of(self.maps[panel.maps[0]], panel)
+            for index, panel in enumerate(self.recipe.panels)
+            if panel.is_picture
+        }
+
+    @cached_property
+    def values(self) -> dict[int, Floats]:
+        """(k,) of the visible triangles of each picture that shows a measure."""
+        return {
+            index: scene.map.values(measure_of(scene.panel))[scene.skin.simplex]
+            for index, scene in self.scenes.items()
+            if scene.panel.has_measure
+        }
+
+    @cached_property
+    def halves(self) -> dict[int, tuple[float, float]]:
+        """Half the width and height that each picture shows: of one frame the same, unless one is far larger than most."""
+        own = {index: frame_round(scene.points).half for index, scene in self.scenes.items()}
+        found = dict(own)
+        for name in {scene.panel.frame for scene in self.scenes.values()} - {""}:
+            members = [index for index, scene in self.scenes.items() if scene.panel.frame == name]
+            sizes = np.array([own[index] for index in members])
+            if sizes.max() <= MOST_SPREAD * np.median(sizes.max(axis=1)):
+                width, height = sizes.max(axis=0)
+                found |= dict.fromkeys(members, (float(width), float(height)))
+        return found
+
+    @cached_property
+    def paints(self) -> dict[str, ScalarMappable]:
+        """A scale of colours for each that panels share, and for each panel of its own."""
+        groups: dict[str, list[int]] = {}
+        for index in self.values:
+            groups.setdefault(self._scale_name(index), []).append(index)
+        return {name: self._paint(members) for name, members in groups.items()}
+
+    def _scale_name(self, index: int) -> str:
+        return self.recipe.panels[index].scale or f"\n{index}"  # no name has a line break
+
+    def _paint(self, members: list[int]) -> ScalarMappable:
+        upright = [self.values[index][~self.scenes[index].inverted] for index in members]
+        values = np.concatenate([part[np.isfinite(part)] for part in upright])
+        panels = [self.recipe.panels[index] for index in members]
+        limits = next((panel.range for panel in panels if panel.range is not None), None)
+        if panels[0].colour in CENTRED:
+            return centred_scale(values, 1.0, limits)
+        return colour_scale(values, limits)
+
+    # ------------------------------------------------------------------------------------------ drawing
+
+    def _caption(self, panel: Panel) -> str:
+        if panel.caption or not panel.is_picture:
+            return panel.caption
+        title = self.maps[panel.maps[0]].title
+        return title if panel.kind == "map" else f"source, {title}"
+
+    def _layout(self) -> PageLayout:
+        page = self.recipe.page
+        cells = []
+        for index, panel in enumerate(self.recipe.panels):
+            half = self.halves.get(index)
+            is_chart = panel.kind in ("histogram", "curves")
+            cells.append(
+                Cell(
+                    span=panel.span,
+                    aspect=half[1] / half[0] if half else 0.0,
+                    has_caption=bool(self._caption(panel)) or (page.letters and (panel.is_picture or is_chart)),
+                    has_bar=panel.bar and panel.is_picture and panel.has_measure,
+                    has_axes=is_chart,
+                    is_bar=panel.kind == "colour-bar",
+                )
+            )
+        return lay_out(cells, page.width, page.columns, page.font_size, bool(page.title))
+
+    def _draw_all(self, figure: Figure, layout: PageLayout) -> None:
+        letters = iter("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
+        left = MOST_VECTORS
+        for index, (panel, place) in enumerate(zip(self.recipe.panels, layout.places, strict=True)):
+            if panel.kind == "empty":
+                continue
+            lettered = self.recipe.page.letters and panel.kind != "colour-bar"
+            self._write_caption(figure, layout, place, next(letters, "") if lettered else "", self._caption(panel))
+            if panel.is_picture:
+                left -= self._draw_picture(self._axes(figure, layout, place.inside), index, place, left)
+            elif panel.kind == "histogram":
+                self._draw_histogram(self._axes(figure, layout, place.inside), panel)
+            elif panel.kind == "curves":
+                self._draw_curves(self._axes(figure, layout, place.inside), panel)
+            if place.bar is not None:
+                paint = self.paints[self._scale_name(index)]
+                draw_bar(self._axes(figure, layout, place.bar), paint, title_of(measure_of(panel)), self.recipe.page.font_size)
+
+    @staticmethod
+    def _axes(figure: Figure, layout: PageLayout, box: Box) -> Axes:
+        width, height = layout.width, layout.height
+        axes = figure.add_axes(
+            (box.left / width, 1 - (box.top + box.height) / height, box.width / width, box.height / height)
+        )
+        axes.patch.set_alpha(0.0)
+        return axes
+
+    def _write_caption(self, figure: Figure, layout: PageLayout, place: Place, letter: str, caption: str) -> None:
+        size = self.recipe.page.font_size
+        y = 1 - (place.whole.top + 0.55 * size * MM_OF_POINT) / layout.height
+        if letter:
+            figure.text(place.whole.left / layout.width, y, letter, weight="bold", va="center", fontsize=1.1 * size)
+        taken = 1.4 * size * MM_OF_POINT if letter else 0.0
+        most = int((place.whole.width - 2 * taken) / (LETTER_WIDTH * size * MM_OF_POINT))
+        words = caption if len(caption) <= most else f"{caption[: max(most - 1, 1)]}…"
+        middle = (place.whole.left + 0.5 * place.whole.width) / layout.width
+        figure.text(middle, y, words, ha="center", va="center", fontsize=size, parse_math=False)
+
+    def _draw_picture(self, axes: Axes, index: int, place: Place, most: int) -> int:
+        """The number of triangles that were drawn as vectors."""
+        scene, page = self.scenes[index], self.recipe.page
+        frame = frame_in(scene.points, self.halves[index], place.inside.width, place.inside.height, page.dpi)
+        count = len(scene.skin.triangles)
+        as_vectors = scene.is_vector and count <= most
+        paint = self.paints.get(self._scale_name(index))
+        draw_scene(
+            axes, scene, paint, self.values.get(index), frame, as_vectors=as_vectors, size=page.font_size / USUAL_TEXT
+        )  # fmt: skip
+        if not as_vectors:
+            reason = "it lies in space" if not scene.is_flat else "of its texture"
+            if scene.is_vector:
+                reason = f"its {count} triangles would make the file too large"
+            self.notes.append(f"Panel {index + 1} is a picture of {page.dpi} dpi: {reason}.")
+        return count if as_vectors else 0
+
+    def _draw_histogram(self, axes: Axes, panel: Panel) -> None:
+        alike = [p for p in self.recipe.panels if p.kind == "histogram" and panel.scale and p.scale == panel.scale] or [panel]
+        everything = [self._signature(name, panel) for p in alike for name in p.maps]
+        low = min(float(item.values.min()) for item in everything)
+        high = max(float(item.values.max()) for item in everything)
+        is_logarithmic = low > 0 and high > LOGARITHMIC**2 * low
+        edges = common_edges(everything, panel.bins, logarithmic=is_logarithmic)
+        items = [self._signature(name, panel) for name in panel.maps]
+        paint = self.paints.get(panel.scale) if panel.scale else None
+        draw_histograms(
+            axes, items, edges, title_of(measure_of(panel)), self.recipe.page.font_size,
+            is_logarithmic=is_logarithmic, paint=paint,
+        )  # fmt: skip
+
+    def _signature(self, name: str, panel: Panel) -> Signature:
+        """The finite values of a measure, each with its part of the source."""
+        found = self.maps[name]
+        values, weights = found.values(measure_of(panel)), found.elements.rest_measures
+        finite = np.isfinite(values)
+        if not finite.any():
+            raise WorkbenchError(f"{panel.colour} is infinite all over the map {name}; a histogram needs other values.")
+        return Signature(found.title, values[finite], weights[finite] / weights[finite].sum())
+
+    def _draw_curves(self, axes: Axes, panel: Panel) -> None:
+        items = [self.maps[name] for name in panel.maps]
+        bare = next((name for name, item in zip(panel.maps, items, strict=True) if not item.rows), None)
+        if bare is not None:
+            raise WorkbenchError(f"The map {bare} comes from a file, which has no curves; name maps that are solved for.")
+        draw_curves(axes, items, panel.quantity, self.recipe.page.font_size)

@@ -1,0 +1,126 @@
+"""The maps of a recipe: read from files, or solved for, each solver running once however many of its maps are shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from workbench.core.arrays import Floats, Integers
+from workbench.core.errors import WorkbenchError
+from workbench.core.jacobians import Elements, build_elements
+from workbench.core.measure import Measure, SingularValues
+from workbench.core.mesh import Mesh
+from workbench.core.run import HistoryRow
+from workbench.core.solver import Interrupt, never
+from workbench.core.state import State
+from workbench.core.surface_jacobians import singular_values_of_any
+from workbench.engine.replay import anchors_of, replay
+from workbench.engine.starts import adjusted_start
+from workbench.figures.recipe import MapChoice
+from workbench.io.opening import OpenedSource, map_from_file, open_source
+from workbench.session.record import SessionRecord
+
+
+@dataclass(frozen=True, eq=False)
+class FigureMap:
+    """A map as panels need it.
+
+    Parameters
+    ----------
+    title : str                    what captions call it
+    mesh : Mesh                    the source
+    positions : (n, d) float64     the map
+    anchors : (k,) int64           anchored vertices
+    rows : tuple of HistoryRow     up to this map; empty where it comes from a file
+    """
+
+    title: str
+    mesh: Mesh
+    positions: Floats
+    anchors: Integers
+    rows: tuple[HistoryRow, ...] = ()
+
+    @cached_property
+    def elements(self) -> Elements:
+        return build_elements(self.mesh)
+
+    @cached_property
+    def singular_values(self) -> SingularValues:
+        return SingularValues(singular_values_of_any(self.elements, self.positions))
+
+    def values(self, measure: Measure) -> Floats:
+        """(m,) values of a measure, infinite where it is not defined."""
+        with np.errstate(all="ignore"):
+            found = measure.prepare(self.singular_values.dimension)(self.singular_values)
+        return np.where(np.isnan(found), np.inf, found)
+
+
+def make_maps(
+    choices: Sequence[MapChoice], *, interrupt: Interrupt = never, tell: Callable[[str], None] = lambda _: None
+) -> dict[str, FigureMap]:
+    """Every map by its name. Raises `WorkbenchError` naming the map that cannot be made."""
+    found: dict[str, FigureMap] = {}
+    opened: dict[tuple[str, str, tuple[str, ...]], OpenedSource] = {}
+    for choice in choices:
+        if choice.name in found:
+            continue
+        session = choice.session
+        key = session.source, session.kind, session.fixes
+        try:
+            if key not in opened:
+                opened[key] = open_source(session.source, kind=session.kind, fixes=session.fixes)
+            if choice.target:
+                found[choice.name] = _map_of_file(choice, opened[key])
+                continue
+            tell(f"{choice.title}: solving on {session.source}")
+            run = [item for item in choices if not item.target and _is_same_run(item, choice)]
+            found |= _solved(run, opened[key], interrupt)
+        except WorkbenchError as error:
+            raise WorkbenchError(f"Map {choice.name}: {error.sentence}", fixes=error.fixes) from error
+    return found
+
+
+
+
+def _map_of_file(choice: MapChoice, opened: OpenedSource) -> FigureMap:
+    positions = map_from_file(choice.target, opened.mesh, opened.kind)
+    positions = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)
+    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened))
+
+
+def _is_same_run(first: MapChoice, second: MapChoice) -> bool:
+    return replace(first.session, iterations=0) == replace(second.session, iterations=0)
+
+
+def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Interrupt) -> Mapping[str, FigureMap]:
+    """The maps of one run at the iterations that are wanted; who is done before keeps the last one."""
+    longest = max(choices, key=lambda choice: choice.session.iterations)
+    kept: dict[str, Floats] = {}
+
+    def keep(state: State) -> None:
+        for choice in choices:
+            if state.iteration <= choice.session.iterations:
+                kept[choice.name] = state.positions
+
+    result = replay(SessionRecord(longest.session), opened, interrupt=interrupt, on_state=keep).result
+    if interrupt():
+        raise WorkbenchError("The figure was interrupted; nothing was written.")
+    if result.state.status.is_failure:
+        raise WorkbenchError(f"The solver failed: {result.state.status.value}")
+    return {
+        choice.name: FigureMap(
+            choice.title,
+            opened.mesh,
+            kept[choice.name],
+            _anchors(choice, opened),
+            tuple(row for row in result.rows if row.iteration <= choice.session.iterations),
+        )
+        for choice in choices
+    }
+
+
+def _anchors(choice: MapChoice, opened: OpenedSource) -> Integers:
+    return anchors_of(choice.session, opened.mesh.vertex_count, opened.mesh.dimension).vertices

@@ -1,0 +1,159 @@
+"""A mesh in a panel: triangles as vectors where it is flat, else a picture of high resolution inside the vector page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.arrays import Booleans, Floats
+from workbench.core.mesh import Mesh
+from workbench.figures.colour_scale import INVERTED
+from workbench.figures.figure_maps import FigureMap
+from workbench.figures.mesh_pictures import (
+    Frame,
+    Skin,
+    coloured_picture,
+    frame_round,
+    in_strips,
+    skin_of,
+    texture_square,
+    textured_picture,
+    view_of,
+)
+from workbench.figures.recipe import CHEQUERED, Panel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+MOST_VECTORS = 120_000
+"""Triangles of all panels of a page that are drawn as vectors; what is beyond them becomes a picture."""
+PLAIN_COLOUR = (0.80, 0.86, 0.92)
+EDGE_COLOUR = "#303030"
+EDGE = 0.12
+OUTLINE = 0.45
+ANCHOR = 2.4
+"""Widths of edges and of the line round a mesh, size of an anchor, points, at 8 points of text."""
+SEAM = 0.1
+"""Width of the line in a triangle's own colour that closes the hairline between it and its neighbour, points."""
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """What a panel shows of a map: `points` (n, 2), or (n, 3) turned to the viewer, and the triangles that are seen."""
+
+    map: FigureMap
+    panel: Panel
+    points: Floats
+    skin: Skin
+
+    @property
+    def is_flat(self) -> bool:
+        return self.points.shape[1] == 2
+
+    @property
+    def inverted(self) -> Booleans:
+        """(k,) of the visible triangles."""
+        found: Booleans = self.map.singular_values.inverted[self.skin.simplex]
+        return found
+
+    @property
+    def is_vector(self) -> bool:
+        """Whether its triangles are drawn as paths where there are not too many."""
+        return self.is_flat and self.panel.colour != CHEQUERED
+
+
+def scene_of(map: FigureMap, panel: Panel) -> Scene:
+    """The source or the target of a map, seen from where it shows itself well."""
+    points = map.mesh.vertices if panel.kind == "source" else map.positions
+    if points.shape[1] == 3:
+        mesh = map.mesh if map.mesh.vertices.shape[1] == 3 else Mesh(points, map.mesh.simplices)
+        points = points @ view_of(mesh).T
+    return Scene(map, panel, points, skin_of(map.mesh))
+
+
+def draw_scene(
+    axes: Axes, scene: Scene, paint: ScalarMappable | None, values: Floats | None, frame: Frame, *, as_vectors: bool, size: float
+) -> None:
+    """Draw a mesh into axes of the size of `frame`.
+
+    Parameters
+    ----------
+    values : (k,) float64     of the visible triangles, coloured by `paint`; None for a pattern
+    frame : Frame             what is seen; its density is that of a picture
+    size : float              factor of the widths of lines, 1 at 8 points of text
+    """
+    if scene.panel.colour == CHEQUERED:
+        _picture(axes, in_strips(lambda part: _textured(scene, part), frame), frame)
+    else:
+        colours = _colours(scene, paint, values)
+        if as_vectors:
+            _triangles(axes, scene, colours, size)
+        else:
+            on_top = scene.inverted
+            picture = in_strips(lambda part: coloured_picture(scene.points, scene.skin, colours, part, on_top), frame)
+            _picture(axes, picture, frame)
+    if scene.is_flat and scene.map.mesh.dimension == 2:
+        _outline(axes, scene, size)
+        if scene.panel.anchors and len(scene.map.anchors):
+            places = scene.points[scene.map.anchors]
+            axes.plot(*places.T, "o", ms=ANCHOR * size, color="#0072b2", mec="black", mew=0.3 * size, zorder=4)
+    left, right, bottom, top = frame.extent
+    axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[])
+    axes.spines[:].set_visible(False)
+
+
+def frame_in(points: Floats, half: tuple[float, float], width: float, height: float, dpi: int) -> Frame:
+    """The frame about points that fills a box of `width` by `height` mm and shows `half` at least."""
+    scale = min(width / (2 * half[0]), height / (2 * half[1]))  # mm a unit
+    centre = frame_round(points).centre
+    return Frame(centre, (0.5 * width / scale, 0.5 * height / scale), scale / 25.4 * dpi)
+
+
+def _colours(scene: Scene, paint: ScalarMappable | None, values: Floats | None) -> Floats:
+    """(k, 3) of the visible triangles."""
+    if paint is None or values is None:
+        colours: Floats = np.tile(np.array(PLAIN_COLOUR), (len(scene.skin.triangles), 1))
+    else:
+        colours = paint.to_rgba(np.clip(values, *_ends(paint)))[:, :3]
+    colours[scene.inverted] = INVERTED
+    return colours
+
+
+def _ends(paint: ScalarMappable) -> tuple[float, float]:
+    norm = paint.norm
+    assert norm.vmin is not None and norm.vmax is not None
+    return float(norm.vmin), float(norm.vmax)
+
+
+def _textured(scene: Scene, frame: Frame) -> Floats:
+    map = scene.map
+    square = texture_square(map.mesh, float(map.elements.rest_measures.sum()))
+    return textured_picture(scene.points, scene.skin, map.positions, square, frame)
+
+
+def _picture(axes: Axes, image: Floats, frame: Frame) -> None:
+    axes.imshow(image, extent=frame.extent, origin="lower", interpolation="none", aspect="auto")
+
+
+def _triangles(axes: Axes, scene: Scene, colours: Floats, size: float) -> None:
+    from matplotlib.collections import PolyCollection
+
+    order = np.argsort(scene.inverted, kind="stable")  # inverted ones lie on top
+    edges = {"edgecolors": EDGE_COLOUR, "linewidths": EDGE * size} if scene.panel.edges else {
+        "edgecolors": colours[order], "linewidths": SEAM
+    }  # fmt: skip
+    corners = scene.points[scene.skin.triangles[order]]
+    axes.add_collection(
+        PolyCollection(corners, facecolors=colours[order], joinstyle="round", gid="triangles", zorder=1, **edges),
+        autolim=False,
+    )
+
+
+def _outline(axes: Axes, scene: Scene, size: float) -> None:
+    from matplotlib.collections import LineCollection
+
+    edges = scene.points[scene.map.mesh.topology.boundary_facets]
+    axes.add_collection(LineCollection(list(edges), colors="#222222", linewidths=OUTLINE * size, zorder=3), autolim=False)

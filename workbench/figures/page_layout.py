@@ -1,0 +1,126 @@
+"""Where the parts of a figure stand on its page, in mm from the upper left corner."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+MM_OF_POINT = 25.4 / 72
+GAP = 3.0
+"""Between columns and between rows, mm."""
+MARGIN = 1.0
+TALLEST = 1.25
+"""Height of a picture, as a part of its width, that it has at the most."""
+CHART = 0.66
+"""Height of a chart, as a part of its width, in a row without pictures."""
+LEAST_HEIGHT = 8.0
+BAR = 2.2
+"""Thickness of a colour bar, mm."""
+BAR_LENGTH = 0.86
+"""Of the width of its panel."""
+LONGEST_BAR = 80.0
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What a panel needs: `aspect` is the height of its picture over its width, 0 where it has none.
+
+    `has_axes`: a chart with numbers and words along two sides. `is_bar`: nothing but a colour bar.
+    """
+
+    span: int = 1
+    aspect: float = 0.0
+    has_caption: bool = False
+    has_bar: bool = False
+    has_axes: bool = False
+    is_bar: bool = False
+
+
+@dataclass(frozen=True)
+class Box:
+    """A rectangle: left edge, upper edge, width, height, mm."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a panel stands: all of it with its caption, its picture or chart, its colour bar."""
+
+    whole: Box
+    inside: Box
+    bar: Box | None = None
+
+
+@dataclass(frozen=True)
+class PageLayout:
+    """`places` of the panels in their order; the page is `width` by `height` mm, `top` of it for a title."""
+
+    width: float
+    height: float
+    places: tuple[Place, ...]
+
+
+def lay_out(cells: Sequence[Cell], width: float, columns: int, font_size: float, has_title: bool = False) -> PageLayout:
+    """Panels row by row, each as many columns wide as it spans; a row is as high as its highest picture asks for.
+
+    `width` in mm, `font_size` in points.
+    """
+    line = 1.25 * font_size * MM_OF_POINT
+    column = (width - 2 * MARGIN - (columns - 1) * GAP) / columns
+    top = MARGIN + (1.6 * line if has_title else 0.0)
+    places: list[Place] = []
+    for row in _rows(cells, columns):
+        heading = 1.25 * line if any(cell.has_caption for cell in row) else 0.0
+        widths = [cell.span * column + (cell.span - 1) * GAP for cell in row]
+        inner = _inner_height(row, widths, line)
+        below = max((_below(cell, line) for cell in row), default=0.0)
+        used = 0
+        for cell, wide in zip(row, widths, strict=True):
+            left = MARGIN + used * (column + GAP)
+            used += cell.span
+            places.append(_place(cell, Box(left, top, wide, heading + inner + below), heading, inner, line))
+        top += heading + inner + below + GAP
+    return PageLayout(width, max(top - GAP, 0.0) + MARGIN, tuple(places))
+
+
+def _rows(cells: Sequence[Cell], columns: int) -> list[list[Cell]]:
+    rows: list[list[Cell]] = []
+    free = 0
+    for cell in cells:
+        if cell.span > free:
+            rows.append([])
+            free = columns
+        rows[-1].append(cell)
+        free -= cell.span
+    return rows
+
+
+def _inner_height(row: Sequence[Cell], widths: Sequence[float], line: float) -> float:
+    """Height of pictures and charts of a row; 0 where it has colour bars alone."""
+    pictures = [min(cell.aspect, TALLEST) * wide for cell, wide in zip(row, widths, strict=True) if cell.aspect > 0]
+    charts = [CHART * wide for cell, wide in zip(row, widths, strict=True) if cell.has_axes]
+    if pictures:
+        return max(LEAST_HEIGHT, *pictures, *(min(height, 7 * line) for height in charts))
+    return max(min(charts), 8 * line) if charts else 0.0
+
+
+def _below(cell: Cell, line: float) -> float:
+    """What a panel needs below its picture: numbers and words of a chart or of a colour bar."""
+    if cell.has_axes:
+        return 2.6 * line
+    return BAR + 2.5 * line + (0.5 * line if not cell.is_bar else 0.0) if cell.has_bar or cell.is_bar else 0.0
+
+
+def _place(cell: Cell, whole: Box, heading: float, inner: float, line: float) -> Place:
+    top = whole.top + heading
+    inset = 3.8 * line if cell.has_axes else 0.0
+    inside = Box(whole.left + inset, top, max(whole.width - inset - (0.6 * line if inset else 0.0), 1.0), inner)
+    if not (cell.has_bar or cell.is_bar):
+        return Place(whole, inside)
+    length = min(BAR_LENGTH * whole.width, LONGEST_BAR)
+    bar_top = top + inner + (0.0 if cell.is_bar else 0.5 * line)
+    return Place(whole, inside, Box(whole.left + 0.5 * (whole.width - length), bar_top, length, BAR))
