@@ -137,7 +137,7 @@ class ContestantPane(QWidget):
         """Name, numbers and how it stands; whether the race runs now."""
         frame = record.frame
         self.swatch.setPixmap(swatch_of(self.shown))
-        notes = {"flipped": self.is_flipped, "A, with which the others are compared": self.is_reference}
+        notes = {"flipped": self.is_flipped, "A, the reference": self.is_reference}
         said = "; ".join(note for note, holds in notes.items() if holds)
         self.name.setText(f"{record.label}  ({said})" if said else record.label)
         self.switch_action.setEnabled(frame is not None)
