@@ -1,0 +1,411 @@
+"""Sessions in the window: saved, opened, undone, kept through a crash; nothing is lost unasked."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from PySide6.QtCore import QCoreApplication, QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMessageBox, QPushButton
+from pytestqt.qtbot import QtBot
+
+from tests.app.conftest import Hand, WindowMaker, pixel_of
+from tests.app.fake_engine import FakeWorker
+from workbench.app.document import Document
+from workbench.app.engine_bridge import EngineBridge, engine_worker
+from workbench.app.main_window import MainWindow
+from workbench.app.sessions.autosave import Autosave
+from workbench.app.sessions.undoing import Undoing
+from workbench.cli import main
+from workbench.engine.session_file import read_session
+
+LONG = 60_000
+
+
+def mesh_file(folder: Path) -> Path:
+    """A file that the fake engine takes for its grid."""
+    path = folder / "grid.obj"
+    path.write_text("v 0 0 0\n")
+    return path
+
+
+def wait_for_desk(window: MainWindow, qtbot: QtBot) -> None:
+    qtbot.waitUntil(lambda: not window.sessions.desk.is_busy, timeout=LONG)
+
+
+# ---------------------------------------------------------------------------------------------- undo
+
+
+class Desk:
+    """A document on the fake engine, without a window, and its history."""
+
+    def __init__(self) -> None:
+        self.document = Document(EngineBridge(FakeWorker))
+        self.undoing = Undoing(self.document)
+        self.document.open("grid")
+        self.settle()
+
+    def settle(self) -> None:
+        """Let reports arrive; they are taken at most once in 12 ms."""
+        for _ in range(2):
+            QCoreApplication.processEvents()
+            time.sleep(0.013)
+        QCoreApplication.processEvents()
+
+    @property
+    def now(self) -> tuple[object, ...]:
+        document = self.document
+        return document.session, document.anchors, document.positions.tobytes()
+
+    def end(self) -> None:
+        self.undoing.wait()
+        self.settle()
+        self.document.deleteLater()
+
+
+@pytest.fixture
+def desk(qapp: object) -> Iterator[Desk]:
+    desk = Desk()
+    yield desk
+    desk.end()
+
+
+def anchor(desk: Desk, value: int) -> None:
+    desk.document.add_anchor(value * 7)
+
+
+def drag(desk: Desk, value: int) -> None:
+    document = desk.document
+    if len(document.anchors):
+        vertex = int(document.anchors.vertices[value % len(document.anchors)])
+        target = np.array(document.anchors.targets[vertex])
+        for step in range(1, 4):
+            document.move_anchor(vertex, target + 0.01 * step * (value + 1), dragging=step < 3)
+
+
+def let_go(desk: Desk, value: int) -> None:
+    if len(desk.document.anchors):
+        desk.document.remove_anchor(int(desk.document.anchors.vertices[0]))
+
+
+def choose(desk: Desk, value: int) -> None:
+    desk.document.choose(distortion=("mips", "arap", "dirichlet")[value % 3], distortion_parameters={})
+
+
+def choose_solver(desk: Desk, value: int) -> None:
+    desk.document.choose(solver=("slim", "aqp")[value % 2], solver_parameters={})
+
+
+def run(desk: Desk, value: int) -> None:
+    desk.document.toggle()
+
+
+def reset(desk: Desk, value: int) -> None:
+    desk.document.reset()
+
+
+def undo(desk: Desk, value: int) -> None:
+    desk.undoing.undo()
+
+
+def redo(desk: Desk, value: int) -> None:
+    desk.undoing.redo()
+
+
+DEEDS = st.tuples(st.sampled_from([anchor, drag, let_go, choose, choose_solver, run, reset, undo, redo]), st.integers(0, 9))
+
+
+@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.lists(DEEDS, min_size=3, max_size=10))
+def test_undo_all_and_redo_all_brings_back_the_same_session_and_map(qapp: object, deeds: list) -> None:
+    desk = Desk()
+    beginning = desk.now
+    for deed, value in deeds:
+        deed(desk, value)
+        desk.settle()
+    history = desk.undoing.history
+    desk.undoing.go_to(len(history.names))
+    desk.settle()
+    end = desk.now
+    while history.undo_name:
+        desk.undoing.undo()
+        desk.settle()
+    assert desk.now == beginning
+    while history.redo_name:
+        desk.undoing.redo()
+        desk.settle()
+    assert desk.now == end
+    desk.end()
+
+
+def test_a_drag_is_one_step_and_one_that_is_taken_back_is_none(desk: Desk) -> None:
+    anchor(desk, 3)
+    desk.settle()
+    drag(desk, 1)
+    desk.settle()
+    assert desk.undoing.history.names == ("Set anchor", "Move anchor")
+    vertex = 21
+    target = np.array(desk.document.anchors.targets[vertex])
+    desk.document.move_anchor(vertex, target, True)  # taken up, and not moved yet
+    desk.document.move_anchor(vertex, target + 1.0, True)
+    assert desk.undoing.history.names[-2:] == ("Move anchor", "Move anchor")
+    desk.document.move_anchor(vertex, target, False)
+    assert desk.undoing.history.names == ("Set anchor", "Move anchor")
+
+
+def test_drawing_a_slider_is_one_step_named_by_its_last_value(desk: Desk) -> None:
+    formula = "t*arap + mips"
+    for value in (1.0, 2.0, 3.0):
+        desk.document.choose(distortion=formula, distortion_parameters={"t": value})
+        desk.settle()
+    assert len(desk.undoing.history.names) == 1 and "t = 3" in desk.undoing.history.undo_name
+    desk.undoing.undo()
+    assert desk.document.session.distortion == "symmetric-dirichlet"
+
+
+def test_undo_goes_back_to_the_mesh_before(desk: Desk) -> None:
+    anchor(desk, 2)
+    desk.settle()
+    before = desk.now
+    desk.document.open("bumpy")
+    desk.settle()
+    assert desk.document.kind == "parameterize" and desk.undoing.history.undo_name == "Open bumpy"
+    desk.undoing.undo()
+    desk.settle()
+    desk.settle()
+    assert desk.now == before and desk.document.kind == "plane"
+
+
+def test_a_run_is_undone_to_the_map_before_it(desk: Desk) -> None:
+    desk.document.step()
+    desk.settle()
+    before = desk.now
+    desk.document.run()
+    desk.settle()
+    desk.undoing.undo()
+    desk.settle()
+    assert desk.now == before and not desk.document.wants_to_run
+
+
+def test_keys_menu_and_list_undo(window: MainWindow, qtbot: QtBot) -> None:
+    document = window.document
+    window.undoing.history.__init__(10**8)  # the window is shared by the tests of this file
+    document.add_anchor(30)
+    document.add_anchor(60)
+    QTest.qWait(30)
+    assert window.actions_by_name["undo"].text() == "Undo set anchor"
+    QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert 60 not in document.anchors and 30 in document.anchors
+    QTest.qWait(30)
+    QTest.keyClick(window, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
+    assert 60 in document.anchors
+    window.steps.list.itemClicked.emit(window.steps.list.item(0))
+    assert not len(document.anchors) and window.actions_by_name["redo"].text() == "Redo set anchor"
+    assert not window.actions_by_name["undo"].isEnabled()
+
+
+# ---------------------------------------------------------------------------------------------- files
+
+
+def test_the_title_marks_what_is_not_saved_and_a_session_comes_back(
+    make_window: WindowMaker, qtbot: QtBot, tmp_path: Path
+) -> None:
+    window = make_window(source=str(mesh_file(tmp_path)))
+    document = window.document
+    qtbot.waitUntil(lambda: document.positions is not None)
+    assert not window.isWindowModified()
+    document.add_anchor(3)
+    document.add_anchor(9)
+    document.move_anchor(9, np.array([1.0, 2.0]), False)
+    QTest.qWait(30)
+    assert window.isWindowModified()
+    path = tmp_path / "mine.dwb"
+    window.sessions.save_to(str(path))
+    wait_for_desk(window, qtbot)
+    assert not window.isWindowModified() and "mine.dwb" in window.windowTitle()
+    assert window.settings.recent_sessions == [str(path)]
+    session, positions = document.complete_session, document.positions
+    document.clear_anchors()
+    document.choose(distortion="mips")
+    assert window.isWindowModified()
+    window.open(str(path))
+    wait_for_desk(window, qtbot)
+    qtbot.waitUntil(lambda: not document.opening_source and np.array_equal(document.positions, positions))
+    assert document.complete_session == session
+    assert not window.isWindowModified()
+
+
+def test_a_missing_mesh_is_asked_for(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    path = tmp_path / "lost.json"
+    path.write_text('{"format": "distortion-workbench session", "version": 1, "source": {"path": "gone.obj"}}')
+    window.sessions.open(str(path))
+    wait_for_desk(window, qtbot)
+    box = window.findChild(QMessageBox)
+    assert box is not None and "gone.obj" in box.text()
+    assert window.document.session.source == "grid"
+    box.reject()
+    QTest.qWait(20)
+
+
+@pytest.mark.parametrize(
+    "distortion", ["__import__('os').system('id')", "().__class__", "sigma.__class__", "no-such"]
+)
+def test_a_formula_that_is_none_is_refused_before_anything_is_opened(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, distortion: str
+) -> None:
+    path = tmp_path / "bad.json"
+    begin = '{"format": "distortion-workbench session", "version": 1, "source": {"path": "sample:bar"}, "distortion": "'
+    path.write_text(begin + distortion + '"}')
+    window.sessions.open(str(path))
+    wait_for_desk(window, qtbot)
+    assert window.error_bar.isVisible() and window.document.session.source == "grid"
+
+
+def test_closing_asks_only_where_a_file_would_be_out_of_date(make_window: WindowMaker, qtbot: QtBot, tmp_path: Path) -> None:
+    window = make_window(source=str(mesh_file(tmp_path)))
+    document = window.document
+    qtbot.waitUntil(lambda: document.positions is not None)
+    window.sessions.save_to(str(tmp_path / "mine.dwb"))
+    wait_for_desk(window, qtbot)
+    document.add_anchor(5)
+    window.close()
+    assert window.isVisible()
+    box = next(box for box in window.findChildren(QMessageBox) if box.isVisible())
+    box.button(QMessageBox.StandardButton.Save).click()
+    wait_for_desk(window, qtbot)
+    qtbot.waitUntil(lambda: not window.isVisible(), timeout=LONG)
+    assert read_session(tmp_path / "mine.dwb").session.anchor_vertices == (5,)
+
+
+def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMaker, qtbot: QtBot, tmp_path: Path) -> None:
+    window = make_window(engine_worker, source="sample:bar")
+    document = window.document
+    qtbot.waitUntil(lambda: document.positions is not None and bool(len(document.anchors)), timeout=LONG)
+
+    def rested() -> bool:
+        snapshot = document.snapshot
+        return snapshot.phase == "finished" and snapshot.anchor_serial == document.anchor_serial
+
+    document.run()
+    qtbot.waitUntil(rested, timeout=LONG)
+    hand, view = Hand(window.target.view), window.target.view
+    begin = pixel_of(view, int(document.anchors.vertices[0]))
+    hand.drag(begin, begin + QPoint(25, -30))
+    qtbot.waitUntil(rested, timeout=LONG)
+    for change in (
+        {"distortion": "lam*symmetric_dirichlet + (1 - lam)*mips", "distortion_parameters": {"lam": 0.25}},
+        {"solver": "l-bfgs"},
+        {"solver": "projected-newton"},
+    ):
+        document.choose(**change)
+        qtbot.wait(300)
+        qtbot.waitUntil(rested, timeout=LONG)
+    window.sessions.save_to(str(tmp_path / "s.dwb"))
+    wait_for_desk(window, qtbot)
+    record = read_session(tmp_path / "s.dwb")
+    assert len(record.legs) >= 3 and record.legs[0].origin == "map", "the hand had its part"
+    assert record.energy == document.snapshot.row.energy
+    assert main(["run", str(tmp_path / "s.dwb"), "--out", str(tmp_path / "out"), "--quiet"]) == 0
+    with np.load(tmp_path / "out" / "map.npz") as case:
+        np.testing.assert_allclose(case["X"], document.positions, atol=1e-9 * document.mesh.diameter)
+    record_again = (tmp_path / "out" / "report.json").read_text()
+    assert '"same_energy": true' in record_again
+
+
+# ---------------------------------------------------------------------------------------------- crashes
+
+DRAGGING = """
+import sys, time
+from pathlib import Path
+import numpy as np
+from workbench.app.main import make_application
+
+if __name__ == "__main__":
+    application = make_application()
+    from tests.app.fake_engine import FakeWorker
+    from workbench.app.main_window import MainWindow
+    from workbench.app.sessions import autosave
+    from workbench.app.settings import Settings
+    from workbench.app.theme import ThemeSwitch
+
+    folder = Path(sys.argv[1])
+    autosave.INTERVAL = 300
+    window = MainWindow(ThemeSwitch(application, "light"), Settings(folder / "w.ini"), FakeWorker)
+    window.autosave = autosave.Autosave(window, folder / "recovery")
+    window.start(str(folder / "grid.obj"))
+    window.autosave.start()
+    document = window.document
+    while document.positions is None:
+        application.processEvents()
+    document.add_anchor(4)
+    begin = time.time()
+    while True:
+        document.move_anchor(4, np.array([time.time() - begin, 0.5]), True)
+        application.processEvents()
+        print(time.time() - begin, flush=True)
+        time.sleep(0.02)
+"""
+
+
+def test_a_window_that_is_killed_in_the_middle_of_a_drag_loses_little_and_the_next_start_offers_it(
+    make_window: WindowMaker, qtbot: QtBot, tmp_path: Path, project_root: Path
+) -> None:
+    mesh_file(tmp_path)
+    child = subprocess.Popen(
+        [sys.executable, "-c", DRAGGING, str(tmp_path)],
+        cwd=project_root,
+        env={**os.environ, "PYTHONPATH": str(project_root)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    at = 0.0
+    assert child.stdout is not None
+    for line in child.stdout:
+        at = float(line)
+        if at > 3.0:
+            break
+    os.kill(child.pid, signal.SIGKILL)
+    child.wait()
+    child.stdout.close()
+    (kept,) = (tmp_path / "recovery").glob("*.dwb")
+    assert read_session(kept).session.anchor_targets[0][0] > at - 2.5, "an interval, and the time that writing takes"
+
+    window = make_window()
+    qtbot.waitUntil(lambda: window.document.positions is not None)
+    window.autosave = Autosave(window, tmp_path / "recovery")
+    window.autosave.start()
+    box = window.findChild(QMessageBox, "recovery")
+    assert box is not None and box.isVisible()
+    next(button for button in box.findChildren(QPushButton) if button.text() == "Recover").click()
+    qtbot.waitUntil(lambda: 4 in window.document.anchors)
+    assert not kept.exists() and window.isWindowModified()
+
+
+def test_what_is_in_use_is_not_offered_and_an_orderly_end_leaves_the_last_session(
+    make_window: WindowMaker, qtbot: QtBot, tmp_path: Path
+) -> None:
+    window = make_window(source=str(mesh_file(tmp_path)))
+    qtbot.waitUntil(lambda: window.document.positions is not None)
+    window.autosave = Autosave(window, tmp_path)
+    window.autosave.start()
+    window.document.add_anchor(8)
+    window.autosave.keep()
+    wait_for_desk(window, qtbot)
+    assert window.autosave.path.is_file() and window.isWindowModified()
+    other = Autosave(window, tmp_path)
+    other.start()
+    assert window.findChild(QMessageBox, "recovery") is None, "its owner lives"
+    other.end()
+    window.close()
+    assert not list(tmp_path.glob("*-*.dwb"))
+    assert read_session(tmp_path / "last.dwb").session.anchor_vertices == (8,)
