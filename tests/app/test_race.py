@@ -232,6 +232,7 @@ def test_a_given_map_is_a_level_line_over_the_whole_axis(
     race = begin(racing, qtbot, NEWTON, Entrant("given", map=window.document.positions * 1.1))
     finish(race, qtbot)
     race.timeline.scales["x"].setChecked(logarithmic)
+    race.curves.refresh()
     x, y = race.curves.curves["energy", 1].getOriginalDataset()
     assert y[0] == y[1] == race.model.records[1].history.column("energy")[0]
     (left, right), _ = race.curves._plots[0].getViewBox().viewRange()
