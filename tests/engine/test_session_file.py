@@ -1,0 +1,313 @@
+"""Session files: what was written is read, and whatever is amiss is refused with a sentence and touches nothing."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+import os
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from workbench.core.errors import WorkbenchError
+from workbench.engine.session_file import read_session, source_trouble, write_session
+from workbench.session.journal import Leg
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
+from workbench.session.text import FORMAT, VERSION
+
+HEAD = {"format": FORMAT, "version": VERSION, "source": {"path": "sample:bar"}}
+FINITE = st.floats(-1e9, 1e9)
+PARAMETERS = st.dictionaries(st.text("abc", min_size=1, max_size=3), FINITE, max_size=3)
+
+
+@st.composite
+def records(draw: st.DrawFn) -> SessionRecord:
+    vertices = draw(st.lists(st.integers(0, 10**6), unique=True, max_size=5))
+    count = len(vertices)
+
+    def each(values: st.SearchStrategy) -> tuple:
+        return tuple(draw(st.lists(values, min_size=count, max_size=count)))
+
+    session = Session(
+        source=draw(st.sampled_from(["sample:bar", "sample:cube"])),
+        kind=draw(st.sampled_from(["auto", "plane", "volume"])),
+        fixes=draw(st.sampled_from([(), ("cut",), ("seams", "cut")])),
+        distortion=draw(st.text("abc +*^", min_size=1, max_size=20)),
+        distortion_parameters=draw(PARAMETERS),
+        solver_parameters=draw(st.dictionaries(st.sampled_from(["a", "b"]), st.one_of(FINITE, st.booleans(), st.text("xy")))),
+        fixed_boundary=draw(st.booleans()),
+        anchor_vertices=tuple(vertices),
+        anchor_targets=each(st.tuples(FINITE, FINITE)),
+        anchor_weights=each(st.one_of(st.just(math.inf), st.floats(0.001, 1e6))),
+        anchor_groups=each(st.integers(-1, 5)),
+        iterations=draw(st.integers(0, 10**6)),
+        time_limit=draw(st.one_of(st.just(math.inf), st.floats(0, 1e6))),
+    )
+    positions = draw(st.one_of(st.none(), st.just(np.arange(10.0).reshape(5, 2) / 7)))
+    first = Leg(
+        replace(session, solver="slim", anchor_vertices=(), anchor_targets=(), anchor_weights=(), anchor_groups=()), "start"
+    )
+    legs = (replace(first, iterations=3), Leg(session, "previous", None, 7)) if draw(st.booleans()) else ()
+    return SessionRecord(session, draw(st.sampled_from(["", "0" * 64])), positions, legs, draw(st.one_of(st.none(), FINITE)))
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(records())
+def test_what_is_written_is_read(tmp_path: Path, record: SessionRecord) -> None:
+    path = tmp_path / "s.dwb"
+    write_session(path, record)
+    found = read_session(path)
+    assert found.session == record.session
+    assert (found.sha256, found.energy) == (record.sha256, record.energy)
+    assert [(leg.choices, leg.origin, leg.iterations) for leg in found.legs] == [
+        (leg.choices, leg.origin, leg.iterations) for leg in record.legs
+    ]
+    if record.map is None:
+        assert found.map is None
+    else:
+        np.testing.assert_array_equal(found.map, record.map)
+    first = path.read_bytes()
+    write_session(path, found)
+    assert path.read_bytes() == first
+
+
+def test_only_what_differs_from_the_defaults_is_written(tmp_path: Path) -> None:
+    write_session(tmp_path / "s.json", SessionRecord(Session(source="sample:bar", solver="slim")))
+    assert json.loads((tmp_path / "s.json").read_text()) == {**HEAD, "solver": "slim"}
+
+
+def test_the_mesh_is_named_relative_to_the_session_and_known_by_its_bytes(tmp_path: Path) -> None:
+    mesh = tmp_path / "meshes" / "m.obj"
+    mesh.parent.mkdir()
+    mesh.write_text("v 0 0 0\n")
+    (tmp_path / "a").mkdir()
+    from workbench.engine.session_file import source_digest
+
+    record = SessionRecord(Session(source=str(mesh)), source_digest(str(mesh)))
+    write_session(tmp_path / "a" / "s.json", record)
+    assert json.loads((tmp_path / "a" / "s.json").read_text())["source"]["path"] == "../meshes/m.obj"
+    moved = tmp_path / "elsewhere"
+    moved.mkdir()
+    (tmp_path / "a").rename(moved / "a")
+    (tmp_path / "meshes").rename(moved / "meshes")
+    found = read_session(moved / "a" / "s.json")
+    assert found.session.source == str(moved / "meshes" / "m.obj") and not source_trouble(found)
+    (moved / "meshes" / "m.obj").write_text("v 0 0 1\n")
+    assert "another" in source_trouble(found)
+    (moved / "meshes" / "m.obj").unlink()
+    assert "not at" in source_trouble(found)
+
+
+# ---------------------------------------------------------------------------------------------- hostile text
+
+
+HOSTILE_VALUES: list[dict[str, Any]] = [
+    {"distortion": 7},
+    {"distortion": "x" * 100_000},
+    {"distortion": "a\u0000b"},
+    {"distortion_parameters": [1, 2]},
+    {"distortion_parameters": {"lam": "1; import os"}},
+    {"distortion_parameters": {"lam": 1e300}},
+    {"solver": None},
+    {"solver_parameters": {"a": {"b": 1}}},
+    {"solver_parameters": {"a": 2**70}},
+    {"kind": "plan"},
+    {"kind": ["plane"]},
+    {"fixes": "cut"},
+    {"fixes": ["cut"] * 1000},
+    {"match_area": 1},
+    {"iterations": 10**30},
+    {"iterations": -1},
+    {"iterations": 1.5},
+    {"iterations": True},
+    {"tolerance": -1},
+    {"time_limit": "soon"},
+    {"anchors": {"0": [0, 0]}},
+    {"anchors": [[0, [0, 0]]] * 1_000_000},
+    {"anchors": [[-1, [0, 0]]]},
+    {"anchors": [[0, [1e300, 0]]]},
+    {"anchors": [[0, [0, 0, 0, 0]]]},
+    {"anchors": [[0, [0, 0]], [1, [0, 0, 0]]]},
+    {"anchors": [[0, [0, 0]], [0, [1, 1]]]},
+    {"anchors": [[0, [0, 0], -3]]},
+    {"anchors": [[0, [0, 0], None, "g"]]},
+    {"version": 99},
+    {"version": "1"},
+    {"format": "something else"},
+    {"source": "sample:bar"},
+    {"source": {"path": "x" * 10_000}},
+    {"source": {"path": "a\u0000.obj"}},
+    {"source": {"path": "m.obj", "sha256": "../../etc/passwd"}},
+    {"source": {"path": "m.obj", "command": "rm"}},
+    {"legs": [{"from": "previous", "iterations": 3}]},
+    {"legs": [{"from": "map", "iterations": 3}]},
+    {"legs": [{"from": "start", "iterations": 1e9}]},
+    {"legs": [{"from": "start", "iterations": 1, "fixes": ["cut"]}]},
+    {"legs": [{"from": "start", "iterations": 1}] * 5000},
+    {"__class__": "os"},
+]
+
+
+@pytest.mark.parametrize("spoilt", HOSTILE_VALUES, ids=lambda item: f"{next(iter(item))}-{str(next(iter(item.values())))[:20]}")
+def test_values_that_do_not_fit_are_refused_with_a_sentence(tmp_path: Path, spoilt: dict[str, Any]) -> None:
+    path = tmp_path / "s.json"
+    path.write_text(json.dumps({**HEAD, **spoilt}))
+    refused(path)
+
+
+def refused(path: Path) -> str:
+    with pytest.raises(WorkbenchError) as caught:
+        read_session(path)
+    sentence = caught.value.sentence
+    assert str(path) in sentence and len(sentence) < 600 + len(str(path)) and sentence.rstrip()[-1] in ".;"
+    return sentence
+
+
+HOSTILE_TEXTS = {
+    "nothing": "",
+    "no JSON": "{",
+    "a list": "[]",
+    "not a number": json.dumps(HEAD)[:-1] + ', "tolerance": NaN}',
+    "infinite": json.dumps(HEAD)[:-1] + ', "tolerance": 1e999}',
+    "a number without end": json.dumps(HEAD)[:-1] + ', "iterations": ' + "9" * 100_000 + "}",
+    "deep": "[" * 200_000,
+    "twice": json.dumps(HEAD)[:-1] + ', "solver": "slim", "solver": "aqp"}',
+    "binary": "\x00\x01\x02",
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE_TEXTS)
+def test_texts_that_are_no_session_are_refused(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "s.json"
+    path.write_text(HOSTILE_TEXTS[name])
+    refused(path)
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.recursive(
+        st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5)),
+        lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(st.text(max_size=5), inner, max_size=4)),
+        max_leaves=12,
+    ),
+    st.sampled_from(["kind", "fixes", "anchors", "legs", "source", "distortion_parameters", "energy", "version", "carried"]),
+)
+def test_whatever_stands_there_is_read_or_refused(tmp_path: Path, value: Any, name: str) -> None:
+    path = tmp_path / "s.json"
+    path.write_text(json.dumps({**HEAD, name: value}))
+    try:
+        read_session(path)
+    except WorkbenchError:
+        pass
+
+
+# ---------------------------------------------------------------------------------------------- hostile zips
+
+Packer = Callable[[zipfile.ZipFile], None]
+
+
+def npy(array: np.ndarray, **options: Any) -> bytes:
+    stream = io.BytesIO()
+    np.save(stream, array, **options)
+    return stream.getvalue()
+
+
+def claiming(shape: tuple[int, ...]) -> bytes:
+    """An npy file that says it is larger than it is."""
+    stream = io.BytesIO()
+    np.lib.format.write_array_header_1_0(stream, {"descr": "<f8", "fortran_order": False, "shape": shape})
+    return stream.getvalue() + b"\0" * 16
+
+
+def link_to_passwd(archive: zipfile.ZipFile) -> None:
+    info = zipfile.ZipInfo("map.npy")
+    info.external_attr = 0o120777 << 16
+    archive.writestr(info, "/etc/passwd")
+
+
+HOSTILE_MEMBERS: dict[str, Packer] = {
+    "traversal": lambda z: z.writestr("../map.npy", npy(np.zeros((2, 2)))),
+    "absolute": lambda z: z.writestr("/tmp/map.npy", npy(np.zeros((2, 2)))),
+    "backslash": lambda z: z.writestr("..\\map.npy", npy(np.zeros((2, 2)))),
+    "link": link_to_passwd,
+    "program": lambda z: z.writestr("run.py", "print(1)"),
+    "unused": lambda z: z.writestr("leg-3.npy", npy(np.zeros((2, 2)))),
+    "pickle": lambda z: z.writestr("map.npy", npy(np.array([{}], dtype=object), allow_pickle=True)),
+    "float32": lambda z: z.writestr("map.npy", npy(np.zeros((2, 2), np.float32))),
+    "flat": lambda z: z.writestr("map.npy", npy(np.zeros(4))),
+    "columns": lambda z: z.writestr("map.npy", npy(np.zeros((2, 4)))),
+    "nan": lambda z: z.writestr("map.npy", npy(np.full((2, 2), np.nan))),
+    "huge claim": lambda z: z.writestr("map.npy", claiming((10**12, 2))),
+    "overflowing claim": lambda z: z.writestr("map.npy", claiming((2**62, 2))),
+    "no array": lambda z: z.writestr("map.npy", b"\x93NUMPY\x01\x00"),
+    "bomb": lambda z: z.writestr("map.npy", b"\0" * 50_000_000, zipfile.ZIP_DEFLATED),
+    "text bomb": lambda z: z.writestr("session.json", b" " * 80_000_000, zipfile.ZIP_DEFLATED),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE_MEMBERS)
+def test_zips_with_something_else_in_them_are_refused_and_nothing_is_unpacked(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "in" / "s.dwb"
+    path.parent.mkdir()
+    with zipfile.ZipFile(path, "w") as archive:
+        if name != "text bomb":
+            archive.writestr("session.json", json.dumps(HEAD))
+        HOSTILE_MEMBERS[name](archive)
+    before = sorted(tmp_path.rglob("*"))
+    refused(path)
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_damage_anywhere_is_refused_or_harmless(tmp_path: Path) -> None:
+    path = tmp_path / "s.dwb"
+    write_session(path, SessionRecord(Session(source="sample:bar"), map=np.arange(20.0).reshape(10, 2)))
+    good = path.read_bytes()
+    random = np.random.default_rng(0)
+    for _ in range(150):
+        bad = bytearray(good)
+        for place in random.integers(0, len(bad), 3):
+            bad[place] = random.integers(0, 256)
+        path.write_bytes(bytes(bad[: random.integers(1, len(bad))]) if random.random() < 0.3 else bytes(bad))
+        try:
+            read_session(path)
+        except WorkbenchError:
+            pass
+
+
+def test_folders_and_pipes_are_no_sessions(tmp_path: Path) -> None:
+    (tmp_path / "s.dwb").mkdir()
+    refused(tmp_path / "s.dwb")
+    os.mkfifo(tmp_path / "p.dwb")
+    refused(tmp_path / "p.dwb")
+    refused(tmp_path / "none.dwb")
+
+
+def test_a_save_that_fails_leaves_the_file_before(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "s.dwb"
+    record = SessionRecord(Session(source="sample:bar"), map=np.zeros((3, 2)))
+    write_session(path, record)
+    before = path.read_bytes()
+
+    def fail(*_: Any, **__: Any) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(np.lib.format, "write_array", fail)
+    with pytest.raises(WorkbenchError, match="No space"):
+        write_session(path, replace(record, energy=3.0))
+    assert path.read_bytes() == before and list(tmp_path.iterdir()) == [path]
+
+
+def test_more_anchors_than_a_file_takes_are_not_written(tmp_path: Path) -> None:
+    many = Session(source="sample:bar", anchor_vertices=tuple(range(300_000)), anchor_targets=((0.0, 0.0),) * 300_000)
+    with pytest.raises(WorkbenchError, match="250000"):
+        write_session(tmp_path / "s.dwb", SessionRecord(many))
+    assert not list(tmp_path.iterdir())
