@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from collections.abc import Callable, Sequence
@@ -11,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.interrupt import InterruptFlag
-from workbench.cli.options import add_problem_options
+from workbench.cli.options import add_problem_options, label_and_file
 from workbench.cli.output import json_text, number, table, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
@@ -93,8 +92,8 @@ def run(options: argparse.Namespace) -> int:
         raise WorkbenchError("There is nobody to compare; name solvers with --solvers A,B,... or a --preset.")
     if options.given and len(options.files) > 1:
         raise WorkbenchError("A map that is --given belongs to one mesh; compare one FILE at a time with it.")
-    given = dict(_label_and_file(text) for text in options.given)
-    check_labels([*(choice.label for choice in choices), *(_label_and_file(text)[0] for text in options.given)])
+    given = dict(label_and_file(text) for text in options.given)
+    check_labels([*(choice.label for choice in choices), *(label_and_file(text)[0] for text in options.given)])
     options.distortion = options.distortion or (preset.distortion if preset else "") or "symmetric-dirichlet"
     tell = teller(options.quiet)
     entries = enter_all(options, choices, given)
@@ -118,11 +117,6 @@ def run(options: argparse.Namespace) -> int:
 def _complain(sentence: str) -> str:
     print(f"workbench: {sentence}", file=sys.stderr, flush=True)
     return sentence
-
-
-def _label_and_file(text: str) -> tuple[str, str]:
-    label, equals, file = text.partition("=")
-    return (label, file) if equals and not os.path.exists(text) else (Path(text).name, text)
 
 
 def _race(

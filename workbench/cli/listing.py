@@ -197,8 +197,12 @@ def plugins() -> list[Entry]:
 
 
 def figures() -> list[Entry]:
-    """Figures for print that other commands write."""
+    """Figures for print: presets of `workbench figure`, and what other commands write."""
+    from workbench.figures.presets import PRESETS
+
+    presets = [_entry("figures", item.id, item.label, item.citation, option="figure") for item in PRESETS.values()]
     return [
+        *presets,
         _entry("figures", "level-curves", "Distortion against the level of refinement", "Fig. 20", option="refine --plot"),
         _entry("figures", "convergence-curves", "Convergence of solvers over iterations and seconds", option="compare --out"),
         _entry("figures", "contact-sheet", "Maps of solvers at chosen iterations", "Fig. 11", option="compare --out"),

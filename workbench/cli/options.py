@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
+from pathlib import Path
 
 from workbench.cli.settings import add_set_option
 
@@ -48,6 +50,12 @@ def fixes(text: str) -> tuple[str, ...]:
     if unknown:
         raise argparse.ArgumentTypeError(f"there is no fix {unknown[0]!r}; there are {', '.join(FIXES)}")
     return names
+
+
+def label_and_file(text: str) -> tuple[str, str]:
+    """The two parts of `[LABEL=]FILE`; the label is the file's name where there is none."""
+    label, equals, file = text.partition("=")
+    return (label, file) if equals and not os.path.exists(text) else (Path(text).name, text)
 
 
 def add_source_options(parser: argparse.ArgumentParser) -> None:

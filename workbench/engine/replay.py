@@ -103,7 +103,7 @@ def replay(
     """Repeat what led to the map of a session.
 
     Its legs, iteration by iteration; where it has none, the map is taken as it is; where it has no map either, the solver
-    runs from the start until it is done; `on_state` is told of every map then. Raises `WorkbenchError` for whatever does not fit.
+    runs from the start until it is done; `on_state` is told of every map then. Raises `WorkbenchError` for what does not fit.
     """
     check_maps(record, opened)
     problem = problem_of(record.session, opened)

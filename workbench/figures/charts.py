@@ -65,6 +65,7 @@ def draw_histograms(
     font_size: float,
     *,
     is_logarithmic: bool,
+    tallest: float,
     paint: ScalarMappable | None = None,
 ) -> None:
     """Normalised histograms over common bins, in the colours of a colour bar where there is one map and one bar."""
@@ -84,7 +85,7 @@ def draw_histograms(
         places = tick_places(float(edges[0]), float(edges[-1]), is_logarithmic=True)
         axes.minorticks_off()
         axes.set_xticks(places, labels=[f"{place:.4g}" for place in places])
-    axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, None))
+    axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 1.05 * tallest))
     _words(axes, label, "density", font_size)
 
 
@@ -121,5 +122,7 @@ def _words(axes: Axes, below: str, left: str, font_size: float) -> None:
     axes.set_ylabel(left, fontsize=0.95 * font_size, labelpad=0.3 * font_size, parse_math=False)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)
     axes.spines[["top", "right"]].set_visible(False)
+    if axes.get_yscale() == "linear":
+        axes.locator_params(axis="y", nbins=5)
     axes.spines[["left", "bottom"]].set_linewidth(0.5)
     axes.patch.set_alpha(0.0)

@@ -13,7 +13,7 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Measure
-from workbench.core.signature import Signature, common_edges
+from workbench.core.signature import Signature, common_edges, densities
 from workbench.figures.charts import draw_bar, draw_curves, draw_histograms
 from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale
 from workbench.figures.figure_maps import FigureMap
@@ -86,8 +86,8 @@ class _Composer:
         if page.background == "transparent":
             figure.patch.set_alpha(0.0)
         if page.title:
-            line = 1.25 * page.font_size * MM_OF_POINT / layout.height
-            figure.text(0.5, 1 - 0.9 * line, page.title, ha="center", va="center", fontsize=1.2 * page.font_size, parse_math=False)
+            y = 1 - 1.125 * page.font_size * MM_OF_POINT / layout.height
+            figure.text(0.5, y, page.title, ha="center", va="center", fontsize=1.2 * page.font_size, parse_math=False)
         self._draw_all(figure, layout)
         return Composition(figure, tuple(self.notes))
 
@@ -231,11 +231,12 @@ class _Composer:
         high = max(float(item.values.max()) for item in everything)
         is_logarithmic = low > 0 and high > LOGARITHMIC**2 * low
         edges = common_edges(everything, panel.bins, logarithmic=is_logarithmic)
+        tallest = max(float(densities(item, edges).max()) for item in everything)
         items = [self._signature(name, panel) for name in panel.maps]
         paint = self.paints.get(panel.scale) if panel.scale else None
         draw_histograms(
             axes, items, edges, title_of(measure_of(panel)), self.recipe.page.font_size,
-            is_logarithmic=is_logarithmic, paint=paint,
+            is_logarithmic=is_logarithmic, tallest=tallest, paint=paint,
         )  # fmt: skip
 
     def _signature(self, name: str, panel: Panel) -> Signature:

@@ -75,7 +75,14 @@ def scene_of(map: FigureMap, panel: Panel) -> Scene:
 
 
 def draw_scene(
-    axes: Axes, scene: Scene, paint: ScalarMappable | None, values: Floats | None, frame: Frame, *, as_vectors: bool, size: float
+    axes: Axes,
+    scene: Scene,
+    paint: ScalarMappable | None,
+    values: Floats | None,
+    frame: Frame,
+    *,
+    as_vectors: bool,
+    size: float,
 ) -> None:
     """Draw a mesh into axes of the size of `frame`.
 

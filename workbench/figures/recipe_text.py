@@ -96,9 +96,7 @@ def _plain_map(choice: MapChoice) -> dict[str, Any]:
 def recipe_of(plain: Mapping[str, Any]) -> Recipe:
     """The recipe that a parsed object stands for. Raises `WorkbenchError` naming what is wrong and where."""
     only_known(plain, {"format", "version", "page", "maps", "panels"}, "The recipe")
-    page = Page(**_checked(plain.get("page", {}), PAGE, "page"))
-    if (page.width / 25.4 * page.dpi) ** 2 > LARGEST_PAGE:
-        raise WorkbenchError(f"A page {page.width:g} mm wide at {page.dpi} dpi is too large; take a smaller dpi.")
+    page = checked_page(Page(), plain.get("page", {}))
     maps = tuple(_map_of(item, f"map {i + 1}") for i, item in enumerate(schema.rows("maps", plain.get("maps"), MOST_MAPS)))
     names = [choice.name for choice in maps]
     if len(set(names)) < len(names):
@@ -109,6 +107,14 @@ def recipe_of(plain: Mapping[str, Any]) -> Recipe:
         raise WorkbenchError("The recipe has no panel; a figure needs one at least.")
     _check_scales(panels)
     return Recipe(page, maps, panels)
+
+
+def checked_page(page: Page, changes: Any) -> Page:
+    """The page with some of its values changed. Raises `WorkbenchError` for what is no page."""
+    page = replace(page, **_checked(changes, PAGE, "page"))
+    if (page.width / 25.4 * page.dpi) ** 2 > LARGEST_PAGE:
+        raise WorkbenchError(f"A page {page.width:g} mm wide at {page.dpi} dpi is too large; take a smaller dpi.")
+    return page
 
 
 def _map_of(plain: Any, what: str) -> MapChoice:
@@ -147,7 +153,7 @@ def _check_scales(panels: tuple[Panel, ...]) -> None:
         if panel.scale and panel.has_measure and panel.kind != "curves":
             first = measures.setdefault(panel.scale, (panel.colour, dict(panel.parameters)))
             if first != (panel.colour, dict(panel.parameters)):
-                raise WorkbenchError(f"The scale {panel.scale!r} is shared by {first[0]} and {panel.colour}; give each its own.")
+                raise WorkbenchError(f"{first[0]} and {panel.colour} share the scale {panel.scale!r}; give each its own.")
     drawn = {panel.scale for panel in panels if panel.is_picture and panel.has_measure}
     bare = next((panel.scale for panel in panels if panel.kind == "colour-bar" and panel.scale not in drawn), None)
     if bare is not None:

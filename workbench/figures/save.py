@@ -37,7 +37,10 @@ def settle(figure: Figure) -> None:
 
 
 def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 160) -> None:
-    """Write `figure` in the format of the ending of `path`; `dpi` is that of pixels. Raises `WorkbenchError` where that cannot be."""
+    """Write `figure` in the format of the ending of `path`; `dpi` is that of pixels.
+
+    Raises `WorkbenchError` where it cannot be written.
+    """
     import matplotlib
 
     ending = check_format(path)
