@@ -113,11 +113,11 @@ def plugins() -> Section:
 
 def linear_solvers() -> Section:
     """The back ends of the factorisation."""
-    findings = []
+    findings = [Finding("multifrontal", "Cholesky on all cores: always there, the default")]
     for name, what, instead in (
-        ("cvxopt", "CHOLMOD, supernodal", "SciPy's SuperLU is used instead: several times slower"),
-        ("pymetis", "METIS order of the vertices", "the order is AMD: slower on large meshes"),
-        ("pypardiso", "PARDISO (extra mkl)", "optional"),
+        ("pymetis", "METIS order of the vertices", "the order is AMD or Cuthill and McKee's: slower on large meshes"),
+        ("pypardiso", "Intel's dense routines in the factorisation, and PARDISO (extra mkl)", "optional"),
+        ("cvxopt", "CHOLMOD (extra cholmod)", "optional"),
     ):
         version = installed_version(name)
         findings.append(Finding(name, f"{what}: {version}" if version else f"{what}: not installed; {instead}"))
