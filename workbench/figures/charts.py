@@ -30,10 +30,11 @@ def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) ->
     """A horizontal colour bar with its words below; an arrow at the end beyond which there are values."""
     figure = axes.figure
     bar = figure.colorbar(paint, cax=axes, orientation="horizontal", extend="max", extendfrac=0.03)
+    bar.solids.set_rasterized(False)
     bar.solids.set_edgecolor("face")  # no hairlines between its parts
     low, high = float(bar.vmin), float(bar.vmax)
     places = tick_places(low, high, is_logarithmic=low > 0 and high > LOGARITHMIC * low)
-    bar.set_ticks(places, labels=[f"{place:.4g}" for place in places])
+    bar.set_ticks(places, labels=[f"{place:.6g}" for place in places])
     bar.minorticks_off()
     bar.outline.set_linewidth(0.4)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.15 * font_size)
@@ -84,7 +85,7 @@ def draw_histograms(
         axes.set_xscale("log")
         places = tick_places(float(edges[0]), float(edges[-1]), is_logarithmic=True)
         axes.minorticks_off()
-        axes.set_xticks(places, labels=[f"{place:.4g}" for place in places])
+        axes.set_xticks(places, labels=[f"{place:.6g}" for place in places])
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 1.05 * tallest))
     _words(axes, label, "density", font_size)
 

@@ -33,7 +33,7 @@ CENTRED = ("average-singular-value", *DESCRIPTORS)
 """Measures that are factors: 1 stands for no distortion."""
 USUAL_TEXT = 8.0
 """Font size at which lines have their usual width, points."""
-LETTER_WIDTH = 0.56
+LETTER_WIDTH = 0.5
 """Of a letter, as a part of the font size, about."""
 
 

@@ -18,6 +18,7 @@ MEASURES = ("symmetric-dirichlet", "condition-number", "dirichlet")
 FACTOR = "average-singular-value"
 SOLVER = "projected-newton"
 CONTESTANTS = {"projected-newton": "Projected Newton", "slim": "SLIM", "l-bfgs": "L-BFGS", "aqp": "AQP"}
+STARTS = {"tutte": "Tutte", "lscm": "LSCM"}
 STEPS = (1, 5, 20)
 """Iterations that the contact sheet shows before the last."""
 LAST = 1000
@@ -113,7 +114,8 @@ def _sheet(given: Given) -> Recipe:
         ]
     panels: list[Panel] = []
     sources = [
-        Panel("source", (choice.name,), CHEQUERED, caption=f"source, {choice.title}", anchors=False) for choice in rows[-1]
+        Panel("source", (choice.name,), CHEQUERED, caption=f"source, {choice.title.removesuffix(', last')}", anchors=False)
+        for choice in rows[-1]
     ]
     for row in rows:
         panels += [Panel("map", (choice.name,), scale="distortion", frame="map") for choice in row]
@@ -137,13 +139,20 @@ def _histograms(given: Given) -> Recipe:
     """Maps in the colours of (78), and below each the histogram of it in the same colours, all on one scale."""
     session = _session(given, "bumpy-disc")
     maps = _targets(given, session) or (
-        MapChoice("start", replace(session, iterations=0), label="start"),
-        MapChoice("mips", replace(session, distortion="mips"), label="MIPS"),
+        *_starts(given, session),
         MapChoice("symmetric-dirichlet", session, label="Symmetric Dirichlet"),
     )
     pictures = [Panel("map", (choice.name,), FACTOR, scale="factor", frame="map") for choice in maps]
     charts = [Panel("histogram", (choice.name,), FACTOR, scale="factor") for choice in maps]
     return Recipe(Page(columns=len(maps)), maps, (*pictures, *charts))
+
+
+def _starts(given: Given, session: Session) -> tuple[MapChoice, ...]:
+    """The start of the user's mesh; of the sample a map with a fixed boundary and one that keeps angles."""
+    start = replace(session, iterations=0)
+    if given.mesh:
+        return (MapChoice("start", start, label="start"),)
+    return tuple(MapChoice(id, replace(start, initializer=id), label=label) for id, label in STARTS.items())
 
 
 def _before_after(given: Given) -> Recipe:

@@ -1,0 +1,169 @@
+"""Figures from recipes: vectors are vectors, scales are common, the same recipe gives the same bytes."""
+
+from __future__ import annotations
+
+import re
+import zlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from workbench.core.errors import WorkbenchError
+from workbench.core.measure import Measure
+from workbench.figures import composer
+from workbench.figures.composer import compose
+from workbench.figures.figure_maps import make_maps
+from workbench.figures.page_layout import Cell, lay_out
+from workbench.figures.recipe import CHEQUERED, MapChoice, Page, Panel, Recipe
+from workbench.figures.save import save_figure
+from workbench.session.session import Session
+
+PLANE = Session(source="sample:bar", solver="projected-newton", iterations=3)
+PULLED = replace(PLANE, anchor_vertices=(0, 100), anchor_targets=((-0.5, 0.2), (2.0, 1.4)))
+FACTOR = "average-singular-value"
+
+
+@pytest.fixture(scope="module")
+def maps():
+    choices = [
+        MapChoice("rest", replace(PULLED, iterations=0), label="rest $x_1"),
+        MapChoice("pulled", PULLED),
+        MapChoice("solid", Session(source="sample:bar-3d", iterations=0)),
+    ]
+    return make_maps(choices)
+
+
+def figure_of(maps, *panels, **page):
+    names = {name for panel in panels for name in panel.maps}
+    choices = tuple(MapChoice(name, PULLED) for name in sorted(names))
+    return compose(Recipe(Page(**{"dpi": 72, **page}), choices, panels), maps)
+
+
+def paths_in(svg: str) -> int:
+    """Paths of the triangles of an SVG."""
+    parts = re.findall(r'<g id="triangles">(.*?)</g>', svg, re.DOTALL)
+    return sum(part.count("<path ") for part in parts)
+
+
+def filled_paths(pdf: bytes) -> int:
+    """Paths that the pages of a PDF fill and stroke: operators b, B and their kin at the end of a line."""
+    streams = re.findall(rb"stream\r?\n(.*?)endstream", pdf, re.DOTALL)
+    texts = []
+    for stream in streams:
+        try:
+            texts.append(zlib.decompress(stream))
+        except zlib.error:
+            continue
+    return sum(len(re.findall(rb"^[bB]\*?$", text, re.MULTILINE)) for text in texts)
+
+
+def test_every_triangle_of_a_flat_map_is_a_path(maps, tmp_path):
+    count = maps["pulled"].mesh.simplex_count
+    found = figure_of(maps, Panel(maps=("rest",)), Panel(maps=("pulled",), bar=True))
+    assert not found.notes
+    for ending in (".svg", ".pdf"):
+        save_figure(found.figure, tmp_path / f"figure{ending}")
+    assert paths_in((tmp_path / "figure.svg").read_text()) == 2 * count
+    assert "<image" not in (tmp_path / "figure.svg").read_text()
+    assert 2 * count <= filled_paths((tmp_path / "figure.pdf").read_bytes()) <= 2 * count + 400
+
+
+def test_what_lies_in_space_is_a_picture_in_a_vector_page(maps, tmp_path):
+    found = figure_of(maps, Panel(maps=("solid",), bar=True), Panel("source", ("rest",), CHEQUERED))
+    assert len(found.notes) == 2
+    save_figure(found.figure, tmp_path / "figure.svg")
+    text = (tmp_path / "figure.svg").read_text()
+    assert paths_in(text) == 0
+    assert text.count("<image") >= 2
+
+
+def test_too_many_triangles_become_a_picture_and_it_is_said(maps, monkeypatch):
+    monkeypatch.setattr(composer, "MOST_VECTORS", 1.5 * maps["pulled"].mesh.simplex_count)
+    found = figure_of(maps, Panel(maps=("rest",)), Panel(maps=("pulled",)))
+    assert len(found.notes) == 1
+    assert "Panel 2" in found.notes[0]
+
+
+def test_panels_of_one_scale_have_one_colour_for_one_value(maps):
+    apart = figure_of(maps, Panel(maps=("rest",), colour="det"), Panel(maps=("pulled",), colour="det"))
+    together = figure_of(maps, Panel(maps=("rest",), colour="det", scale="s"), Panel(maps=("pulled",), colour="det", scale="s"))
+
+    def colours(found):
+        collections = [axes.collections[0] for axes in found.figure.axes]
+        return [collection.get_facecolor() for collection in collections]
+
+    values = maps["pulled"].values(Measure("det"))
+    rest, pulled = colours(together)
+    nearest = pulled[np.argmin(np.abs(values - 1.0))]
+    assert np.abs(rest - nearest).max() < 0.02
+    assert np.abs(pulled - nearest).max() > 0.2
+    assert len(np.unique(colours(apart)[1], axis=0)) > 10
+
+
+def test_the_same_recipe_gives_the_same_bytes(tmp_path):
+    choices = (MapChoice("a", PULLED), MapChoice("b", replace(PULLED, iterations=1)))
+    panels = (
+        Panel(maps=("a",), bar=True),
+        Panel("histogram", ("a", "b"), FACTOR),
+        Panel("curves", ("a",)),
+        Panel("source", ("a",), CHEQUERED),
+    )
+    for attempt in ("first", "second"):
+        recipe = Recipe(Page(dpi=72, columns=2, letters=True, title="both"), choices, panels)
+        found = compose(recipe, make_maps(choices))
+        for ending in (".png", ".pdf", ".svg"):
+            save_figure(found.figure, tmp_path / f"{attempt}{ending}", 72)
+    for ending in (".png", ".pdf", ".svg"):
+        first, second = ((tmp_path / f"{attempt}{ending}").read_bytes() for attempt in ("first", "second"))
+        assert first == second
+        assert b"CreationDate" not in first
+        assert b"<dc:date>" not in first
+
+
+def test_maps_of_one_run_are_where_the_solver_was(maps):
+    found = make_maps([MapChoice(str(k), replace(PULLED, iterations=k)) for k in (2, 0, 3)])
+    assert [len(found[name].rows) for name in ("0", "2", "3")] == [1, 3, 4]
+    np.testing.assert_array_equal(found["3"].positions, maps["pulled"].positions)
+    np.testing.assert_array_equal(found["0"].positions, maps["rest"].positions)
+
+
+def test_text_is_text_and_no_mathematics(maps):
+    found = figure_of(maps, Panel(maps=("rest",)), title=r"50 % of $\frac")
+    found.figure.canvas.draw()
+    assert {r"50 % of $\frac", "rest $x_1"} <= {text.get_text() for text in found.figure.texts}
+
+
+def test_the_page_is_as_wide_as_asked_and_as_transparent(maps, tmp_path):
+    from PIL import Image
+
+    found = figure_of(maps, Panel(maps=("rest",)), width=90.0, background="transparent", dpi=100)
+    save_figure(found.figure, tmp_path / "figure.png", 100)
+    with Image.open(tmp_path / "figure.png") as picture:
+        assert picture.width == pytest.approx(90 / 25.4 * 100, abs=1)
+        assert picture.getpixel((0, picture.height - 1))[3] == 0
+
+
+def test_a_histogram_of_nothing_is_refused(maps):
+    broken = replace(maps["rest"], positions=maps["rest"].positions * [-1.0, 1.0])
+    with pytest.raises(WorkbenchError, match="infinite"):
+        figure_of({"rest": broken}, Panel("histogram", ("rest",)))
+
+
+def test_parts_of_a_page_do_not_overlap():
+    cells = [
+        Cell(aspect=0.5, has_caption=True, has_bar=True),
+        Cell(aspect=2.0),
+        Cell(has_axes=True),
+        Cell(span=2, has_axes=True, has_caption=True),
+        Cell(span=3, is_bar=True),
+    ]
+    page = lay_out(cells, 150.0, 3, 8.0, has_title=True)
+    boxes = [place.whole for place in page.places]
+    for i, a in enumerate(boxes):
+        assert a.left >= 0
+        assert a.left + a.width <= page.width + 1e-9
+        assert a.top + a.height <= page.height + 1e-9
+        for b in boxes[:i]:
+            is_beside = a.left >= b.left + b.width - 1e-9 or b.left >= a.left + a.width - 1e-9
+            assert is_beside or a.top >= b.top + b.height - 1e-9 or b.top >= a.top + a.height - 1e-9
