@@ -15,6 +15,8 @@ from workbench.core.pattern import HessianPattern
 
 SHARES = 16
 """Subtrees that are factorised side by side have at most this part of all the work each."""
+LITTLE_WORK = 4e7
+"""Columns times squared heights, summed, up to which sharing the work costs more than it saves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +177,8 @@ def _entry_targets(column_starts, rows, place, first, row_starts, panel_rows, pa
 def _split(parents: Integers, work: np.ndarray) -> tuple[Integers, Integers]:
     """Subtrees of at most a share of the work as (t, 2) ranges, and (k,) the supernodes above them."""
     count = len(parents)
+    if work.sum() < LITTLE_WORK:
+        return np.array([[0, count]]), np.empty(0, dtype=np.int64)
     below = work.copy()
     first = np.arange(count)  # leftmost descendant
     for s in range(count):

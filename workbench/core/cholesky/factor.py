@@ -13,6 +13,10 @@ from workbench.core.threads import over_pieces
 
 LINE = 8
 """Numbers in a cache line."""
+LITTLE_FACTOR = 3_000_000
+"""Numbers of a factor up to which one thread solves."""
+SMALL = 384
+"""Rows up to which the dense steps of a supernode are not worth sharing."""
 
 
 class NotPositiveDefiniteError(ArithmeticError):
@@ -24,10 +28,13 @@ class CholeskyFactor:
 
     def __init__(self, symbolic: SymbolicFactor) -> None:
         self.symbolic = symbolic
-        self._factor = _aligned_zeros(symbolic.factor_size)
-        self._workspace = _aligned_zeros(symbolic.workspace_size)
+        self._factor = _aligned(symbolic.factor_size)
+        self._workspace = _aligned(symbolic.workspace_size)
         self._subtrees = [(int(begin), int(end)) for begin, end in symbolic.subtrees]
-        self._pieces = [np.arange(begin, end) for begin, end in symbolic.subtrees]
+        # What a solve takes in parts: all at once where sharing costs more than it saves.
+        is_little = symbolic.factor_size < LITTLE_FACTOR
+        self._pieces = [np.arange(begin, end) for begin, end in symbolic.subtrees] if not is_little else []
+        self._last = symbolic.top if not is_little else np.arange(len(symbolic.layout.first) - 1)
 
     def factorise(self, values: Floats) -> None:
         """Factorise; (nnz,) values on the pattern. Raises `NotPositiveDefiniteError`."""
@@ -44,12 +51,14 @@ class CholeskyFactor:
             raise NotPositiveDefiniteError("a pivot is not positive")
 
     def _eliminate(self, node: int, values: Floats) -> bool:
-        """One supernode, its dense steps shared by the threads."""
+        """One supernode; the dense steps of a large one are shared by the threads."""
         layout, factor, workspace = self.symbolic.layout, self._factor, self._workspace
-        assemble_panel(node, layout, values, factor, workspace)
         panel = int(layout.panel_starts[node])
         columns = int(layout.first[node + 1] - layout.first[node])
         height = int(layout.row_starts[node + 1] - layout.row_starts[node])
+        if height <= SMALL:
+            return bool(factor_supernodes(node, node + 1, layout, dense_routines(), values, factor, workspace))
+        assemble_panel(node, layout, values, factor, workspace)
         if not eliminate_columns(factor, panel, columns, height):
             return False
         if height > columns:
@@ -79,8 +88,8 @@ class CholeskyFactor:
         above = spare.pop() if spare else np.zeros_like(x)
         for supernodes, values in zip(self._pieces, asked, strict=True):  # in this order whoever was first
             above[:, self._rows_above(supernodes[-1])] += values
-        solve_forward(s.top, s.layout, self._factor, x, above)
-        backward(s.top)
+        solve_forward(self._last, s.layout, self._factor, x, above)
+        backward(self._last)
         over_pieces(backward, self._pieces)
         result = np.empty((s.size, len(x)))
         result[s.order] = x.T
@@ -92,8 +101,8 @@ class CholeskyFactor:
         return layout.rows[layout.row_starts[supernode] + columns : layout.row_starts[supernode + 1]]
 
 
-def _aligned_zeros(size: int) -> Floats:
+def _aligned(size: int) -> Floats:
     """At a multiple of a cache line, wherever: routines may sum in another order for another alignment."""
-    memory = np.zeros(size + LINE)
+    memory = np.empty(size + LINE)
     offset = -memory.ctypes.data // memory.itemsize % LINE
     return memory[offset : offset + size]
