@@ -173,3 +173,15 @@ def test_the_menu_offers_what_can_be_done(solid_window: MainWindow, qtbot: QtBot
     fill_carried(solid_window, menu)
     assert not any(action.isEnabled() for action in menu.actions() if action.text())
     menu.deleteLater()
+
+
+def test_letting_go_is_undone_and_done_again(carrying: MainWindow, ring: tuple[Path, Mesh], qtbot: QtBot) -> None:
+    carried, undoing = carrying.carried, carrying.undoing
+    assert carrying.document.session.carried == str(ring[0])
+    carried.let_go()
+    assert undoing.history.undo_name == "Carried surface" and not carrying.document.session.carried
+    undoing.undo()
+    qtbot.waitUntil(lambda: carried.surface is not None, timeout=30_000)
+    assert carried.source == str(ring[0])
+    undoing.redo()
+    qtbot.waitUntil(lambda: carried.surface is None)

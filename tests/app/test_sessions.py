@@ -168,7 +168,9 @@ def test_drawing_a_slider_is_one_step_named_by_its_last_value(desk: Desk) -> Non
     for value in (1.0, 2.0, 3.0):
         desk.document.choose(distortion=formula, distortion_parameters={"t": value})
         desk.settle()
-    assert len(desk.undoing.history.names) == 1 and "t = 3" in desk.undoing.history.undo_name
+    assert desk.undoing.history.names == ("t*arap + mips, t = 1", "t = 3")
+    desk.undoing.undo()
+    assert desk.document.session.distortion_parameters == {"t": 1.0}
     desk.undoing.undo()
     assert desk.document.session.distortion == "symmetric-dirichlet"
 

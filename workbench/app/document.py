@@ -17,6 +17,7 @@ from workbench.app.quantities import Quantity
 from workbench.app.sessions.restoring import (
     Wanted,
     anchors_in,
+    drawn_parameters,
     is_on_same_source,
     name_of_anchor_change,
     with_anchors,
@@ -176,8 +177,7 @@ class Document(QObject):
     def _take_up(self, wanted: Wanted) -> None:
         assert self.loaded is not None and wanted.positions is not None
         self._before["TakeUp"] = {**vars(self.complete_session)}
-        self._problem_serial += 1
-        self.anchor_serial += 1
+        self._problem_serial, self.anchor_serial = self._problem_serial + 1, self.anchor_serial + 1
         self._put(wanted.session)
         serials = self.anchor_serial, self._problem_serial
         self._bridge.post(take_up(wanted.session, wanted.positions, self.loaded.generation, *serials))
@@ -337,7 +337,7 @@ class Document(QObject):
         if session == self.session:
             return
         names = set(changes)
-        self._announce("Choose", ",".join(sorted(names)))
+        self._announce("Choose", drawn_parameters(self.session, changes))
         for command, fields in REFUSABLE.items():
             if names & fields:
                 self._before[command] = {name: getattr(self.session, name) for name in fields}

@@ -26,14 +26,10 @@ class Settings:
     @property
     def recent_files(self) -> list[str]:
         """Newest first; files that are gone are left out."""
-        value: Any = self._store.value("recent", [])
-        paths = [value] if isinstance(value, str) else list(value or [])
-        return [str(p) for p in paths if p and Path(str(p)).is_file()]
+        return self._files("recent")
 
     def remember_file(self, path: str) -> None:
-        full = str(Path(path).resolve())
-        others = [p for p in self.recent_files if p != full]
-        self._store.setValue("recent", [full, *others][:RECENT_COUNT])
+        self._remember("recent", path)
 
     def forget_files(self) -> None:
         self._store.setValue("recent", [])
@@ -41,14 +37,20 @@ class Settings:
     @property
     def recent_sessions(self) -> list[str]:
         """Newest first; files that are gone are left out."""
-        value: Any = self._store.value("sessions", [])
+        return self._files("sessions")
+
+    def remember_session(self, path: str) -> None:
+        self._remember("sessions", path)
+
+    def _files(self, key: str) -> list[str]:
+        value: Any = self._store.value(key, [])
         paths = [value] if isinstance(value, str) else list(value or [])
         return [str(p) for p in paths if p and Path(str(p)).is_file()]
 
-    def remember_session(self, path: str) -> None:
+    def _remember(self, key: str, path: str) -> None:
         full = str(Path(path).resolve())
-        others = [p for p in self.recent_sessions if p != full]
-        self._store.setValue("sessions", [full, *others][:RECENT_COUNT])
+        others = [p for p in self._files(key) if p != full]
+        self._store.setValue(key, [full, *others][:RECENT_COUNT])
 
     @property
     def recent_formulas(self) -> list[str]:

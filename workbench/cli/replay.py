@@ -107,11 +107,10 @@ def _write(options: argparse.Namespace, record: SessionRecord, opened: OpenedSou
 def _write_carried(folder: Path, record: SessionRecord, opened: OpenedSource, found: Replayed) -> None:
     if not record.session.carried:
         return
-    from workbench.core.carried_surface import carry
-    from workbench.io.opening import read_source
+    from workbench.engine.carried_source import carry_source
     from workbench.io.write import write_surface
 
-    surface = carry(read_source(record.session.carried).mesh, opened.mesh)
+    surface = carry_source(record.session.carried, opened.mesh)
     write_surface(folder / "carried.obj", surface.surface, surface.at(found.result.state.positions))
 
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.background import Background
@@ -18,11 +17,10 @@ from workbench.app.colour_range import ColourRange
 from workbench.app.document import Document
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
-from workbench.core.carried_surface import CarriedSurface, carry
+from workbench.core.carried_surface import CarriedSurface
 from workbench.core.mesh import Mesh
-from workbench.core.samples import make_sample
+from workbench.engine.carried_source import carry_source
 from workbench.engine.carrying_kernels import compile_carrying
-from workbench.io.opening import SAMPLE, read_source
 from workbench.io.write import write_surface
 
 
@@ -49,6 +47,7 @@ class CarriedView(QObject):
         self.bar = CarriedBar(CARRIED_QUANTITIES, self.range, bar_below)
         bar_below.add_below(self.bar)
         self.surface: CarriedSurface | None = None
+        self.source = ""
         self._layers: list[CarriedLayer] = []
         self._work: Background | None = None
         self.opacity = FIRST_OPACITY
@@ -57,6 +56,7 @@ class CarriedView(QObject):
         self.bar.quantity_chosen.connect(self.show_quantity)
         document.opened.connect(self.let_go)
         document.snapshot_taken.connect(self.show_map)
+        document.session_changed.connect(self._follow)
 
     @property
     def is_possible(self) -> bool:
@@ -81,10 +81,9 @@ class CarriedView(QObject):
 
         def work() -> CarriedSurface:
             compile_carrying()
-            surface = read_source(source).mesh
-            return carry(_into_box(surface, mesh) if source.startswith(SAMPLE) else surface, mesh)
+            return carry_source(source, mesh)
 
-        self._begin(work, lambda found: self._take(found, mesh))
+        self._begin(work, lambda found: self._take(found, mesh, source))
 
     def save(self, path: str) -> None:
         """Write the surface as it is now."""
@@ -107,18 +106,34 @@ class CarriedView(QObject):
             deed(result)
 
         self._work.finished.connect(lambda result: end(then, result))
-        self._work.failed.connect(lambda error: end(self.refused.emit, error))
+        self._work.failed.connect(lambda error: end(self._fail, error))
         self._work.start()
 
     def wait(self) -> None:
         if self._work is not None:
             self._work.wait()
 
-    def _take(self, found: CarriedSurface, mesh: Mesh) -> None:
+    def _fail(self, error: Exception) -> None:
+        document = self._document
+        document.session = replace(document.session, carried=self.source)  # it is not asked for again
+        self.refused.emit(error)
+
+    def _follow(self) -> None:
+        """Carry what the session names: an undo, or a session that was opened, may name another one."""
+        wanted = self._document.session.carried
+        if wanted == self.source or self.is_busy:
+            return
+        if wanted:
+            self.read(wanted)
+        else:
+            self._drop()
+
+    def _take(self, found: CarriedSurface, mesh: Mesh, source: str) -> None:
         if self._document.mesh is not mesh:
             return  # another mesh was opened meanwhile
-        self.let_go()
-        self.surface = found
+        self._drop()
+        self.surface, self.source = found, source
+        self._document.choose(carried=source)
         surface = found.surface
         self._layers = [CarriedLayer(pane.view, surface.simplices, surface.vertex_count) for pane in self._panes]
         for colour_range in self._ranges.values():
@@ -185,19 +200,14 @@ class CarriedView(QObject):
 
     def let_go(self) -> None:
         """Carry nothing any longer; the solid is drawn as before."""
+        self._drop()
+        self._document.choose(carried="")
+
+    def _drop(self) -> None:
         self._set_solid(1.0)
         for layer in self._layers:
             layer.remove()
         self._layers = []
-        self.surface = None
+        self.surface, self.source = None, ""
         self.bar.hide()
         self._refresh()
-
-
-def _into_box(surface: Mesh, solid: Mesh) -> Mesh:
-    """A surface that lies in the solid bar, scaled and moved into the middle of the box of another solid."""
-    if surface.vertices.shape[1] != 3:
-        return surface  # no solid carries it
-    box, bar = (np.stack([v.min(axis=0), v.max(axis=0)]) for v in (solid.vertices, make_sample("bar-3d").vertices))
-    scale = float((np.ptp(box, axis=0) / np.ptp(bar, axis=0)).min())
-    return replace(surface, vertices=box.mean(axis=0) + scale * (surface.vertices - bar.mean(axis=0)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import secrets
 import time
 from contextlib import suppress
@@ -14,6 +13,7 @@ from platformdirs import user_data_path
 from PySide6.QtCore import QLockFile, QObject, Qt, QTimer
 from PySide6.QtWidgets import QMessageBox
 
+from workbench.app.reporter import source_name
 from workbench.app.sessions.session_desk import Found
 from workbench.core.errors import WorkbenchError
 from workbench.engine.session_file import ENDING, read_session, source_trouble
@@ -36,8 +36,7 @@ class Left:
 
     def discard(self) -> None:
         """Forget it."""
-        for path in (self.path, self.path.with_suffix(".name")):
-            path.unlink(missing_ok=True)
+        self.path.unlink(missing_ok=True)
         self.lock.unlock()
 
 
@@ -78,8 +77,6 @@ class Autosave(QObject):
         now = (document.session, document.anchors, document.snapshot.number, document.generation)
         if now != self._kept:
             self._kept = now
-            with suppress(OSError):
-                self.path.with_suffix(".name").write_text(json.dumps(desk.path), encoding="utf-8")
             desk.save(str(self.path), is_copy=True)
 
     def end(self) -> None:
@@ -122,12 +119,12 @@ class Autosave(QObject):
     def _ask(self, left: Left) -> None:
         try:
             record = read_session(left.path)
-            source = Path(record.session.source).name
-            words = f"{source}, {len(record.session.anchor_vertices)} anchors"
+            count = len(record.session.anchor_vertices)
+            words = f"{source_name(record.session.source)}, {count} anchor{'s' * (count != 1)}"
         except WorkbenchError:
             left.discard()
             return
-        found = Found(str(left.path), record, source_trouble(record))
+        found = Found(str(left.path), record, source_trouble(record), keeps_path=False)
         box = QMessageBox(self._window)
         box.setObjectName("recovery")
         box.setIcon(QMessageBox.Icon.Question)
@@ -146,11 +143,11 @@ class Autosave(QObject):
         box.open()
 
     def _recover(self, left: Left, found: Found) -> None:
-        """Go to it; the file is forgotten once this window has a state of its own."""
+        """Go to it; this window keeps states of its own from then on."""
         if found.trouble:
             self._desk.mesh_wanted.emit(found)
             return
-        self._desk.open(found, keeps_path=False)
+        self._desk.open(found)
         left.discard()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -45,6 +46,13 @@ def anchors_in(session: Session) -> AnchorSet:
     groups = zip(vertices, session.anchor_groups or (-1,) * len(vertices), strict=True)
     targets = dict(zip(vertices, session.anchor_targets, strict=True))
     return AnchorSet(targets, {vertex: group for vertex, group in groups if group >= 0})
+
+
+def drawn_parameters(session: Session, changes: Mapping[str, Any]) -> str:
+    """Names of the parameters that change while their method stays, as by a slider; empty for any other change."""
+    names = sorted(name for name in changes if name.endswith("_parameters"))
+    methods = [name for name in changes if name not in names]
+    return ",".join(names) if all(changes[name] == getattr(session, name) for name in methods) else ""
 
 
 def is_on_same_source(one: Session, other: Session) -> bool:

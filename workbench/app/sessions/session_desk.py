@@ -28,6 +28,8 @@ class Found:
     path: str
     record: SessionRecord
     trouble: str
+    keeps_path: bool = True
+    """Whether the session is saved to that file again."""
 
 
 class SessionDesk(QObject):
@@ -103,13 +105,13 @@ class SessionDesk(QObject):
 
     # ------------------------------------------------------------------------------------------ opening
 
-    def read(self, path: str) -> None:
+    def read(self, path: str, *, keeps_path: bool = True) -> None:
         """Read a session and go to it; a mesh that is missing or changed is asked for."""
 
         def work() -> Found:
             record = read_session(path)
             check_choices(record.session)
-            return Found(path, record, source_trouble(record))
+            return Found(path, record, source_trouble(record), keeps_path)
 
         def done(found: Found) -> None:
             if found.trouble:
@@ -119,13 +121,12 @@ class SessionDesk(QObject):
 
         self._begin(work, done, self.failed.emit)
 
-    def open(self, found: Found, mesh: str = "", *, keeps_path: bool = True) -> None:
+    def open(self, found: Found, mesh: str = "") -> None:
         """Go to a session, on its own mesh or on `mesh`."""
         record = found.record
         session = replace(record.session, source=mesh) if mesh else record.session
-        self._pending_path = found.path if keeps_path else ""
-        positions = record.map
-        self._document.restore(session, positions)
+        self._pending_path = found.path if found.keeps_path else ""
+        self._document.restore(session, record.map)
         if not self._document.opening_source:
             self._opened()
 

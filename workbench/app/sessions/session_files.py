@@ -119,6 +119,12 @@ class SessionFiles(QObject):
     def fill_recent(self, menu: QMenu) -> None:
         """The sessions of the settings that are still there."""
         menu.clear()
+        last = self._window.autosave.last
+        if last is not None:
+            menu.addAction("The last one that was not saved").triggered.connect(
+                lambda: self.desk.read(str(last), keeps_path=False)
+            )
+            menu.addSeparator()
         paths = self._window.settings.recent_sessions
         for path in paths:
             menu.addAction(path).triggered.connect(partial(self._open_recent, path))

@@ -31,6 +31,7 @@ NAMES = {
     "allow_inversions": "Inversions",
     "distortion": "Distortion",
     "solver": "Solver",
+    "carried": "Carried surface",
 }
 """What a choice is called where there are no better words."""
 
@@ -55,7 +56,7 @@ class Undoing(QObject):
         super().__init__(document)
         self._document = document
         self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round)
-        self._key = ""
+        self._key, self._is_choice = "", False
         self._changed_at = 0.0
         self._packing: Background | None = None
         document.changing.connect(self._begin_step)
@@ -75,6 +76,7 @@ class Undoing(QObject):
         now = time.monotonic()
         is_same = bool(key) and key == self._key and now - self._changed_at < PAUSE
         self._key, self._changed_at = key, now
+        self._is_choice = name in ("Choose", "Open")
         if is_same and self.history.done == len(self.history.names) and self.history.done:
             return
         self.history.begin_step(name, self._chosen, self._document.positions)
@@ -84,7 +86,7 @@ class Undoing(QObject):
     def _name_step(self) -> None:
         """Call the newest step by what has become of it."""
         last = self.history.last
-        if last is None or self.history.redo_name or not self._key_is_of_choice():
+        if last is None or self.history.redo_name or not self._is_choice:
             return
         before, after = last.choices.session, self._document.session
         if not is_on_same_source(before, after):
@@ -98,9 +100,6 @@ class Undoing(QObject):
         if words:
             self.history.rename_last(words)
             self.changed.emit()
-
-    def _key_is_of_choice(self) -> bool:
-        return self.history.undo_name in ("Choose", "Open") or self._key not in ("", "step")
 
     def _forget_if_nothing(self, even_if_held: bool = False) -> None:
         """A drag that was taken back, or a choice that was refused, is no step."""
@@ -129,7 +128,7 @@ class Undoing(QObject):
         document = self._document
         if document.is_held or document.opening_source or not 0 <= done <= len(self.history.names):
             return
-        self._key = ""
+        self._key, self._is_choice = "", False
         moment = self.history.go_to(done, self._chosen, document.positions)
         chosen = moment.choices
         document.restore(with_anchors(chosen.session, chosen.anchors), moment.positions, run=chosen.runs)
