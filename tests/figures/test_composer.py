@@ -11,7 +11,6 @@ import pytest
 
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import Measure
-from workbench.figures import composer
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
 from workbench.figures.page_layout import Cell, lay_out
@@ -78,9 +77,9 @@ def test_what_lies_in_space_is_a_picture_in_a_vector_page(maps, tmp_path):
     assert text.count("<image") >= 2
 
 
-def test_too_many_triangles_become_a_picture_and_it_is_said(maps, monkeypatch):
-    monkeypatch.setattr(composer, "MOST_VECTORS", 1.5 * maps["pulled"].mesh.simplex_count)
-    found = figure_of(maps, Panel(maps=("rest",)), Panel(maps=("pulled",)))
+def test_too_many_triangles_become_a_picture_and_it_is_said(maps):
+    recipe = Recipe(Page(dpi=72), (), (Panel(maps=("rest",)), Panel(maps=("pulled",))))
+    found = compose(recipe, maps, int(1.5 * maps["pulled"].mesh.simplex_count))
     assert len(found.notes) == 1
     assert "Panel 2" in found.notes[0]
 

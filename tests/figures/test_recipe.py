@@ -8,6 +8,8 @@ import random
 import pytest
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.run import HistoryRow
+from workbench.figures.history_file import read_history, write_history
 from workbench.figures.presets import PRESETS, preset_recipe
 from workbench.figures.recipe_text import plain_of, read_recipe, recipe_of, write_recipe
 
@@ -91,3 +93,16 @@ def test_damaged_recipes_are_refused_and_nothing_worse(tmp_path):
             read_recipe(path)
         except WorkbenchError as error:
             assert error.sentence
+
+
+def test_a_history_is_read_as_it_was_written(tmp_path):
+    rows = tuple(HistoryRow(k, 0.1 * k, 1 / 3 + k, 1.5, 1e-300, 1.0, k, 0.0) for k in range(3))
+    write_history(tmp_path / "history.csv", rows)
+    assert read_history(tmp_path / "history.csv") == rows
+
+
+@pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "iteration,energy,gradient_norm,inverted\n1,x,2,3\n", "\x00", "1\n" * 9])
+def test_what_is_no_history_is_refused(text, tmp_path):
+    (tmp_path / "history.csv").write_text(text)
+    with pytest.raises(WorkbenchError, match=r"history\.csv"):
+        read_history(tmp_path / "history.csv")

@@ -28,12 +28,15 @@ MOST_MARKED = 30
 
 def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) -> None:
     """A horizontal colour bar with its words below; an arrow at the end beyond which there are values."""
+    from matplotlib.colors import LogNorm
+
     figure = axes.figure
     bar = figure.colorbar(paint, cax=axes, orientation="horizontal", extend="max", extendfrac=0.03)
     bar.solids.set_rasterized(False)
     bar.solids.set_edgecolor("face")  # no hairlines between its parts
     low, high = float(bar.vmin), float(bar.vmax)
-    places = tick_places(low, high, is_logarithmic=low > 0 and high > LOGARITHMIC * low)
+    spans_much = low > 0 and high > LOGARITHMIC * low
+    places = tick_places(low, high, is_logarithmic=spans_much and isinstance(paint.norm, LogNorm))
     bar.set_ticks(places, labels=[f"{place:.6g}" for place in places])
     bar.minorticks_off()
     bar.outline.set_linewidth(0.4)

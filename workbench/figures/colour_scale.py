@@ -25,23 +25,31 @@ LOWEST = 1e-3
 """A scale about a centre reaches no further below it than to this part of it."""
 
 
-def colour_scale(values: Floats, limits: tuple[float, float] | None = None) -> ScalarMappable:
-    """From the least of finite values (k,) to all but the worst hundredth, or between `limits`; logarithmic where it
-    spans much.
+def colour_scale(
+    values: Floats, limits: tuple[float, float] | None = None, logarithmic: bool | None = None
+) -> ScalarMappable:
+    """From the least of finite values (k,) to all but the worst hundredth, or between `limits`.
 
-    Where nearly all are at the least, the worst are what there is to see.
+    Where nothing is said of `logarithmic`, it is so where it spans much. Where nearly all are at the least, the worst are
+    what there is to see.
     """
     import colorcet
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
 
     low, high = limits or _fitted(values)
-    norm = LogNorm(low, high) if low > 0 and high > LOGARITHMIC * low else Normalize(low, high)
+    wanted = high > LOGARITHMIC * low if logarithmic is None else logarithmic
+    norm = LogNorm(low, high) if low > 0 and wanted else Normalize(low, high)
     return ScalarMappable(norm, ListedColormap(colorcet.palette["CET_L19"][TRIMMED:]))
 
 
-def centred_scale(values: Floats, centre: float, limits: tuple[float, float] | None = None) -> ScalarMappable:
-    """Factors about a positive `centre`: half and twice are as far from it, with other colours on its two sides."""
+def centred_scale(
+    values: Floats, centre: float, limits: tuple[float, float] | None = None, logarithmic: bool | None = None
+) -> ScalarMappable:
+    """Factors about a positive `centre`: half and twice are as far from it, with other colours on its two sides.
+
+    Where `limits` are not as far from it on both sides, equal steps still have equally strong colours.
+    """
     import colorcet
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, LogNorm, Normalize
@@ -51,8 +59,12 @@ def centred_scale(values: Floats, centre: float, limits: tuple[float, float] | N
         ends = np.quantile(within, (0.01, 0.99)) if len(within) else np.array([centre, centre])
         factor = min(max(float(np.exp(np.abs(np.log(ends / centre)).max())), LEAST_FACTOR), 1 / LOWEST)
         limits = centre / factor, centre * factor
-    norm = LogNorm(*limits) if limits[0] > 0 else Normalize(*limits)
-    return ScalarMappable(norm, ListedColormap(colorcet.palette["CET_D1"]))
+    norm = LogNorm(*limits) if limits[0] > 0 and logarithmic is not False else Normalize(*limits)
+    table, middle = colorcet.palette["CET_D1"], float(norm(centre))
+    reach = max(abs(middle), abs(1.0 - middle))
+    places = 0.5 + 0.5 * (np.linspace(0.0, 1.0, len(table)) - middle) / reach
+    entries = np.clip(np.rint(places * (len(table) - 1)), 0, len(table) - 1).astype(np.int64)
+    return ScalarMappable(norm, ListedColormap([table[entry] for entry in entries]))
 
 
 def _fitted(values: Floats) -> tuple[float, float]:

@@ -45,13 +45,16 @@ class Composition:
     notes: tuple[str, ...]
 
 
-def compose(recipe: Recipe, maps: Mapping[str, FigureMap]) -> Composition:
-    """The figure of a recipe. Raises `WorkbenchError` for what the maps have not, or measures that fit no map."""
+def compose(recipe: Recipe, maps: Mapping[str, FigureMap], most_vectors: int = MOST_VECTORS) -> Composition:
+    """The figure of a recipe, with up to `most_vectors` triangles drawn as vectors.
+
+    Raises `WorkbenchError` for what the maps have not, or measures that fit no map.
+    """
     import matplotlib
 
     with matplotlib.rc_context():
         matplotlib.rcdefaults()  # the same whatever the user's own settings are
-        return _Composer(recipe, maps).compose()
+        return _Composer(recipe, maps, most_vectors).compose()
 
 
 def title_of(measure: Measure) -> str:
@@ -75,6 +78,7 @@ def measure_of(panel: Panel) -> Measure:
 class _Composer:
     recipe: Recipe
     maps: Mapping[str, FigureMap]
+    most_vectors: int
     notes: list[str] = field(default_factory=list)
 
     def compose(self) -> Composition:
@@ -139,9 +143,10 @@ class _Composer:
         values = np.concatenate([part[np.isfinite(part)] for part in upright])
         panels = [self.recipe.panels[index] for index in members]
         limits = next((panel.range for panel in panels if panel.range is not None), None)
+        logarithmic = next((panel.logarithmic for panel in panels if panel.logarithmic is not None), None)
         if panels[0].colour in CENTRED:
-            return centred_scale(values, 1.0, limits)
-        return colour_scale(values, limits)
+            return centred_scale(values, 1.0, limits, logarithmic)
+        return colour_scale(values, limits, logarithmic)
 
     # ------------------------------------------------------------------------------------------ drawing
 
@@ -171,7 +176,7 @@ class _Composer:
 
     def _draw_all(self, figure: Figure, layout: PageLayout) -> None:
         letters = iter("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
-        left = MOST_VECTORS
+        left = self.most_vectors
         for index, (panel, place) in enumerate(zip(self.recipe.panels, layout.places, strict=True)):
             if panel.kind == "empty":
                 continue

@@ -19,6 +19,7 @@ from workbench.core.state import State
 from workbench.core.surface_jacobians import singular_values_of_any
 from workbench.engine.replay import anchors_of, replay
 from workbench.engine.starts import adjusted_start
+from workbench.figures.history_file import read_history
 from workbench.figures.recipe import MapChoice
 from workbench.io.opening import OpenedSource, map_from_file, open_source
 from workbench.session.record import SessionRecord
@@ -88,7 +89,8 @@ def make_maps(
 def _map_of_file(choice: MapChoice, opened: OpenedSource) -> FigureMap:
     positions = map_from_file(choice.target, opened.mesh, opened.kind)
     positions = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)
-    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened))
+    rows = read_history(choice.history) if choice.history else ()
+    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened), rows)
 
 
 def _is_same_run(first: MapChoice, second: MapChoice) -> bool:

@@ -35,12 +35,14 @@ class Page:
 class MapChoice:
     """A map: out of the file `target`, or what `session` leads to from its start.
 
-    `session.iterations` is where the solver is stopped; curves and captions call the map by its `label`.
+    `history` is a table of the steps that led to a map in a file, for curves. `session.iterations` is where the solver is
+    stopped; curves and captions call the map by its `label`.
     """
 
     name: str
     session: Session
     target: str = ""
+    history: str = ""
     label: str = ""
 
     @property
@@ -60,6 +62,7 @@ class Panel:
     parameters : dict     of the measure
     scale : str           panels of one name share one range of colours, or of bins
     range : (low, high)   of the colours; None: fitted
+    logarithmic : bool    whether the colours are; None: where they span much
     frame : str           maps of one name are drawn on one scale of length
     bar : bool            a colour bar below
     caption : str         above; empty for the label of the map, where there is one
@@ -75,6 +78,7 @@ class Panel:
     parameters: Mapping[str, float] = field(default_factory=dict)
     scale: str = ""
     range: tuple[float, float] | None = None
+    logarithmic: bool | None = None
     frame: str = ""
     bar: bool = False
     caption: str = ""

@@ -29,6 +29,8 @@ LARGEST_PAGE = 60e6
 SESSION_FIELDS = tuple(name for name in schema.CHOICES if name not in ("carried", "time_limit"))
 """Choices that a map is solved with; how far a solver comes in a time differs from run to run."""
 FILES = ("source", "start_file")
+OWN_FILES = ("target", "history")
+"""Fields of a session, and of a map beside it, that name files."""
 
 
 def read_recipe(path: str | os.PathLike[str]) -> Recipe:
@@ -60,7 +62,8 @@ def with_paths(recipe: Recipe, change: Callable[[str], str]) -> Recipe:
 
     def moved(choice: MapChoice) -> MapChoice:
         places: dict[str, Any] = {field: changed(getattr(choice.session, field)) for field in FILES}
-        return replace(choice, session=replace(choice.session, **places), target=changed(choice.target))
+        own = {field: changed(getattr(choice, field)) for field in OWN_FILES}
+        return replace(choice, session=replace(choice.session, **places), **own)
 
     return replace(recipe, maps=tuple(moved(choice) for choice in recipe.maps))
 
@@ -85,7 +88,7 @@ def plain_of(recipe: Recipe) -> dict[str, Any]:
 
 def _plain_map(choice: MapChoice) -> dict[str, Any]:
     plain: dict[str, Any] = {"name": choice.name, "source": choice.session.source}
-    plain |= {name: value for name in ("label", "target") if (value := getattr(choice, name))}
+    plain |= {name: value for name in ("label", *OWN_FILES) if (value := getattr(choice, name))}
     plain |= differing(choice.session, Session(), SESSION_FIELDS)
     return plain | ({"anchors": anchor_rows(choice.session)} if choice.session.anchor_vertices else {})
 
@@ -118,13 +121,13 @@ def checked_page(page: Page, changes: Any) -> Page:
 
 
 def _map_of(plain: Any, what: str) -> MapChoice:
-    fixed = {"name": _name, "label": _caption, "target": schema.path, "source": schema.path}
+    fixed = {"name": _name, "label": _caption, **dict.fromkeys((*OWN_FILES, "source"), schema.path)}
     checks = fixed | {name: schema.CHOICES[name] for name in SESSION_FIELDS} | {"anchors": schema.anchors, "iterations": _steps}
     found = _checked(plain, checks, what)
     if not found.get("name") or not found.get("source"):
         raise WorkbenchError(f"{what} needs a name and a source: a mesh file, or sample:ID.")
     anchors = found.pop("anchors", {})
-    own = {name: found.pop(name) for name in ("name", "label", "target") if name in found}
+    own = {name: found.pop(name) for name in ("name", "label", *OWN_FILES) if name in found}
     return MapChoice(session=Session(**found, **anchors), **own)
 
 
@@ -227,6 +230,7 @@ PANEL: dict[str, schema.Check] = {
     "parameters": schema.numbers_by_name,
     "scale": _name,
     "range": _range,
+    "logarithmic": schema.flag,
     "frame": _name,
     "bar": schema.flag,
     "caption": _caption,
