@@ -188,6 +188,21 @@ def test_undo_goes_back_to_the_mesh_before(desk: Desk) -> None:
     assert desk.now == before and desk.document.kind == "plane"
 
 
+def test_a_moment_whose_mesh_is_gone_is_not_gone_to(desk: Desk) -> None:
+    document = desk.document
+    document.open("closed", fixes=("cut",))
+    desk.settle()
+    document.open("grid")
+    desk.settle()
+    names, done = desk.undoing.history.names, desk.undoing.history.done
+    desk.undoing.history.last.choices.session.__dict__["fixes"] = ()  # as if the file were another one now
+    now = desk.now
+    desk.undoing.undo()
+    desk.settle()
+    desk.settle()
+    assert desk.now == now and (desk.undoing.history.names, desk.undoing.history.done) == (names, done)
+
+
 def test_a_run_is_undone_to_the_map_before_it(desk: Desk) -> None:
     desk.document.step()
     desk.settle()
@@ -244,6 +259,13 @@ def test_the_title_marks_what_is_not_saved_and_a_session_comes_back(
     wait_for_desk(window, qtbot)
     qtbot.waitUntil(lambda: not document.opening_source and np.array_equal(document.positions, positions))
     assert document.complete_session == session
+    assert not window.isWindowModified()
+    window.undoing.undo()
+    assert document.session.distortion == "mips" and not len(document.anchors)
+    window.undoing.redo()
+    assert document.complete_session == session
+    window.sessions.save()
+    wait_for_desk(window, qtbot)
     assert not window.isWindowModified()
 
 

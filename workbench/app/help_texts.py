@@ -28,6 +28,8 @@ SHORTCUTS = """
 <tr><td>Home</td><td>reset to the start</td></tr>
 <tr><td>F</td><td>fit all views</td></tr>
 <tr><td>E</td><td>show or hide edges</td></tr>
+<tr><td>Ctrl+Z, Ctrl+Shift+Z</td><td>undo, redo</td></tr>
+<tr><td>Ctrl+Alt+S, Ctrl+Shift+O</td><td>save the session, open one</td></tr>
 <tr><td>Delete</td><td>remove the selected anchors</td></tr>
 <tr><td>Esc</td><td>clear the brush</td></tr>
 <tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>

@@ -110,6 +110,10 @@ class UndoHistory(Generic[Choices]):
             assert found is not None
             return found
 
+    def stay_at(self, done: int) -> None:
+        """The way to another moment failed: this one is still the present one."""
+        self._done = done
+
     def _moment(self, choices: Choices, positions: Floats | None) -> Moment[Choices]:
         if positions is None:
             return Moment(choices, None)

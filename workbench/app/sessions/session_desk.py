@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
@@ -126,6 +127,8 @@ class SessionDesk(QObject):
         record = found.record
         session = replace(record.session, source=mesh) if mesh else record.session
         self._pending_path = found.path if found.keeps_path else ""
+        if self.has_something:
+            self._document.changing.emit(f"Open {Path(found.path).name}" if found.keeps_path else "Recover", "")
         self._document.restore(session, record.map)
         if not self._document.opening_source:
             self._opened()
@@ -139,7 +142,7 @@ class SessionDesk(QObject):
         self.changed.emit()
 
     def _modify(self, name: str, key: str) -> None:
-        if name != "Open" and not self.is_modified:
+        if not name.startswith("Open") and not self.is_modified:
             self.is_modified = True
             self.changed.emit()
 

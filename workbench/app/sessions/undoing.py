@@ -16,6 +16,7 @@ from workbench.app.sessions.restoring import is_on_same_source, with_anchors
 from workbench.app.switches import switched
 from workbench.core.arrays import Floats
 from workbench.core.jacobians import build_elements, determinants
+from workbench.engine.messages import Refused
 from workbench.session.session import Session
 from workbench.session.undo import UndoHistory
 
@@ -57,12 +58,13 @@ class Undoing(QObject):
         self._document = document
         self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round)
         self._key, self._is_choice = "", False
+        self._came_from = -1
         self._changed_at = 0.0
         self._packing: Background | None = None
         document.changing.connect(self._begin_step)
         document.session_changed.connect(self._name_step)
         document.anchors_changed.connect(self._forget_if_nothing)
-        document.refused.connect(lambda _: self._forget_if_nothing(even_if_held=True))
+        document.refused.connect(self._refused)
         document.opened.connect(self._name_step)
 
     @property
@@ -113,6 +115,14 @@ class Undoing(QObject):
             self.history.forget_last()
             self.changed.emit()
 
+    def _refused(self, report: Refused) -> None:
+        if report.command == "Load" and self._came_from >= 0:
+            self.history.stay_at(self._came_from)  # the mesh of that moment is not there any longer
+            self._came_from = -1
+            self.changed.emit()
+        else:
+            self._forget_if_nothing(even_if_held=True)
+
     # ------------------------------------------------------------------------------------------ going back and forth
 
     def undo(self) -> None:
@@ -129,9 +139,11 @@ class Undoing(QObject):
         if document.is_held or document.opening_source or not 0 <= done <= len(self.history.names):
             return
         self._key, self._is_choice = "", False
+        came_from = self.history.done
         moment = self.history.go_to(done, self._chosen, document.positions)
         chosen = moment.choices
         document.restore(with_anchors(chosen.session, chosen.anchors), moment.positions, run=chosen.runs)
+        self._came_from = came_from if document.opening_source else -1
         self.changed.emit()
         self.gone.emit()
 
