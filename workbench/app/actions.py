@@ -32,6 +32,7 @@ TEXTS: dict[str, ActionText] = {
     "undo": ActionText("Undo", ("Ctrl+Z",)),
     "redo": ActionText("Redo", ("Ctrl+Shift+Z",)),
     "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
+    "figure": ActionText("Fi&gure…", ("Ctrl+E",), "Compose a figure fit to print of what the window shows"),
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
     "quit": ActionText("&Quit", ("Ctrl+Q",)),
     "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),

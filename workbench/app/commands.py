@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
+from workbench.app.composing.composing import Composing
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT, SHORTCUTS
 from workbench.app.race.racing import Racing
@@ -47,6 +48,7 @@ class Commands(QObject):
         self.refining = Refining(window)
         self.filling = Filling(window)
         self.racing = Racing(window)
+        self.composing = Composing(window)
         self.judging = Judging(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
@@ -61,6 +63,7 @@ class Commands(QObject):
             "redo": window.undoing.redo,
             "fill": self.filling.ask,
             "refine": self.refining.ask,
+            "figure": self.composing.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
             "pin": self.pin_boundary,
@@ -95,6 +98,7 @@ class Commands(QObject):
             self.signatures.wait()
         self.refining.wait()
         self.filling.wait()
+        self.composing.wait()
         self.racing.close()
         self.judging.close()
         if self.dissection is not None:

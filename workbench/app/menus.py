@@ -39,6 +39,7 @@ def fill_menus(window: MainWindow) -> None:
     file_menu.addAction(actions["fill"])
     carried = file_menu.addMenu("Carry a sur&face")
     carried.aboutToShow.connect(lambda: fill_carried(window, carried))
+    file_menu.addAction(actions["figure"])
     screenshots = file_menu.addMenu("S&creenshot of")
     screenshots.aboutToShow.connect(lambda: fill_screenshots(window, screenshots))
     file_menu.addSeparator()

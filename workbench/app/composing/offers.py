@@ -1,0 +1,99 @@
+"""What the window shows now, as panels of a figure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from workbench.app.composing.figure_work import NAME, Subject
+from workbench.app.views.textures import PATTERNS
+from workbench.core.run import HistoryRow
+from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
+from workbench.session.session import Session
+
+if TYPE_CHECKING:
+    from workbench.app.history import History
+    from workbench.app.main_window import MainWindow
+    from workbench.app.views.pane import ViewPane
+
+
+@dataclass(frozen=True)
+class Offer:
+    """A panel that can be had; `words` name it in the list."""
+
+    words: str
+    panel: Panel
+    is_chosen: bool = True
+
+
+def subject_of(window: MainWindow) -> Subject | None:
+    """The map on the screen; None while there is none."""
+    document = window.document
+    loaded, positions = document.loaded, document.positions
+    if loaded is None or positions is None:
+        return None
+    given = document.complete_session
+    session = Session(
+        source=given.source,
+        kind=loaded.kind,
+        fixes=given.fixes,
+        anchor_vertices=given.anchor_vertices,
+        anchor_targets=given.anchor_targets,
+    )
+    stem = Path(given.source.replace("sample:", "")).stem
+    return Subject(stem, session, loaded.mesh, loaded.kind, positions, rows_of(window.history))  # type: ignore[arg-type]
+
+
+def rows_of(history: History) -> tuple[HistoryRow, ...]:
+    """The rows of the curves; what the window does not keep is no number."""
+    nothing = {field.name: math.nan for field in fields(HistoryRow)}
+    columns = {name: history.column(name).tolist() for name in ("iteration", "energy", "gradient_norm", "inverted", "seconds")}
+    found = []
+    for values in zip(*columns.values(), strict=True):
+        row = nothing | dict(zip(columns, values, strict=True))
+        found.append(HistoryRow(**row | {name: int(row[name]) for name in ("iteration", "inverted")}))  # type: ignore[arg-type]
+    return tuple(found)
+
+
+def offers_of(window: MainWindow) -> list[Offer]:
+    """The source, the target, each colour map that is open, histogram and curves, with the ranges of the window."""
+    edges = window.actions_by_name["edges"].isChecked()
+    found = [
+        Offer("Source", _view(window, window.source, "source", edges)),
+        Offer("Target", _view(window, window.target, "map", edges)),
+    ]
+    for dock in window.maps:
+        quantity = window.quantities[dock.quantity]
+        panel = _coloured(window, dock.quantity, Panel("map", (NAME,), edges=edges, caption=" ", bar=True))
+        found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible()))
+    id = window.histogram.quantity
+    histogram = _coloured(window, id, Panel("histogram", (NAME,), caption=" "))
+    found.append(Offer(f"Histogram: {window.quantities[id].title}", histogram))
+    if len(window.history) > 1:
+        found.append(Offer("Curve: energy", Panel("curves", (NAME,), caption=" ")))
+        found.append(Offer("Curve: gradient norm", Panel("curves", (NAME,), quantity="gradient-norm", caption=" "), False))
+    return found
+
+
+def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
+    """A view with its colours, or its pattern."""
+    style = window.colouring.style_of(pane)
+    panel = Panel(kind, (NAME,), caption="Source" if kind == "source" else "Target", edges=edges)
+    if style in PATTERNS:
+        return replace(panel, colour=PLAIN if style == "plain" else CHEQUERED)
+    return _coloured(window, style, replace(panel, bar=True))
+
+
+def _coloured(window: MainWindow, id: str, panel: Panel) -> Panel:
+    quantity, colours = window.quantities[id], window.quantities.range_of(id)
+    is_fitted = math.isfinite(colours.low) and math.isfinite(colours.high) and colours.low < colours.high
+    return replace(
+        panel,
+        colour=quantity.measure.text,
+        parameters=dict(quantity.measure.parameters),
+        scale=quantity.measure.id[:60],
+        range=(colours.low, colours.high) if is_fitted else None,
+        logarithmic=colours.is_logarithmic,
+    )
