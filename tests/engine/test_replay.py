@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.registry import registry
 from workbench.engine.loop import EngineLoop
 from workbench.engine.messages import (
     LegBegun,
     Load,
     Loaded,
     MapReport,
+    Refused,
     Report,
     Reset,
     Run,
@@ -177,3 +179,24 @@ def test_maps_of_another_mesh_are_refused() -> None:
     record = SessionRecord(Session(source="sample:bar"), map=np.zeros((7, 2)))
     with pytest.raises(WorkbenchError, match="another mesh"):
         replay(record, open_source("sample:bar"))
+
+
+@pytest.mark.parametrize("solver", sorted(registry().solvers))
+def test_every_solver_is_repeated_while_it_follows_anchors_and_another_distortion(solver: str) -> None:
+    desk = Desk("sample:gingerbread")
+    desk.loop.handle(SetSolver(solver))
+    if isinstance(desk.reports[-1], Refused):
+        desk.loop.handle(SetProblem("arap"))
+        desk.loop.handle(SetSolver(solver))
+    desk.steps(1)
+    desk.hold((0.2, 0.1))
+    desk.steps(5)
+    changed = "arap" if desk.last.distortion == "arap" else "symmetric_dirichlet + 0.1*mips"
+    desk.loop.handle(SetProblem(changed))
+    desk.steps(5)
+    last = desk.journal.way_to(desk.last.leg, desk.last.rows[-1].iteration)[-1]
+    assert last.choices.solver == solver
+    record = desk.record(last.choices)
+    found = replay(record, open_source("sample:gingerbread"))
+    assert found.result.state.energy == pytest.approx(record.energy, rel=1e-10)
+    assert found.result.state.iteration == desk.last.rows[-1].iteration > 1
