@@ -166,3 +166,23 @@ def test_parts_of_a_page_do_not_overlap():
         for b in boxes[:i]:
             is_beside = a.left >= b.left + b.width - 1e-9 or b.left >= a.left + a.width - 1e-9
             assert is_beside or a.top >= b.top + b.height - 1e-9 or b.top >= a.top + a.height - 1e-9
+
+
+def test_words_of_neighbours_keep_apart(maps):
+    long = "factor " * 30
+    found = figure_of(
+        maps,
+        Panel(maps=("pulled",), bar=True, caption=long),
+        Panel(maps=("pulled",), colour="sum(sigma^2) + 1/det + 0.25*max(sigma)^2", bar=True, caption=long),
+        Panel("histogram", ("pulled",), FACTOR, caption=long),
+        Panel("curves", ("pulled",), caption=long),
+        width=100.0,
+        columns=4,
+        letters=True,
+    ).figure
+    found.canvas.draw()
+    words = [text for text in found.texts if len(text.get_text()) > 1] + [axes.xaxis.label for axes in found.axes]
+    boxes = [text.get_window_extent() for text in words if text.get_text()]
+    assert len(boxes) >= 8
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
+    assert all(box.x0 >= -1 and box.x1 <= found.bbox.width + 1 for box in boxes)

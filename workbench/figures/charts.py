@@ -12,6 +12,7 @@ from workbench.core.signature import Signature, densities
 from workbench.figures.colour_scale import LOGARITHMIC
 from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS
 from workbench.figures.recipe import QUANTITIES
+from workbench.figures.text_fit import fit_text, text_width
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 TICKS = 5
 """Numbers beside a colour bar, at the most."""
 FIELDS = {"energy": "energy", "gradient-norm": "gradient_norm", "inverted": "inverted"}
+BEYOND_BAR = 1.14
+"""Width of the words below, as a part of that of a colour bar."""
 MOST_MARKED = 30
 """Steps of a curve up to which each has its mark."""
 
@@ -37,11 +40,15 @@ def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) ->
     low, high = float(bar.vmin), float(bar.vmax)
     spans_much = low > 0 and high > LOGARITHMIC * low
     places = tick_places(low, high, is_logarithmic=spans_much and isinstance(paint.norm, LogNorm))
-    bar.set_ticks(places, labels=[f"{place:.6g}" for place in places])
+    labels = [f"{place:.6g}" for place in places]
+    while len(places) > 2 and text_width("  ".join(labels), 0.85 * font_size) > _width(axes):
+        places, labels = places[::2], labels[::2]
+    bar.set_ticks(places, labels=labels)
     bar.minorticks_off()
     bar.outline.set_linewidth(0.4)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.15 * font_size)
-    axes.set_xlabel(label, fontsize=0.95 * font_size, labelpad=0.2 * font_size, parse_math=False)
+    words, size = fit_text(label, BEYOND_BAR * _width(axes), 0.95 * font_size)
+    axes.set_xlabel(words, fontsize=size, labelpad=0.2 * font_size, parse_math=False)
 
 
 def tick_places(low: float, high: float, *, is_logarithmic: bool) -> list[float]:
@@ -68,11 +75,15 @@ def draw_histograms(
     label: str,
     font_size: float,
     *,
+    room: float,
     is_logarithmic: bool,
     tallest: float,
     paint: ScalarMappable | None = None,
 ) -> None:
-    """Normalised histograms over common bins, in the colours of a colour bar where there is one map and one bar."""
+    """Normalised histograms over common bins, in the colours of a colour bar where there is one map and one bar.
+
+    `room` is the width of the panel, mm; `tallest` the density up to which the axis reaches.
+    """
     heights = [densities(item, edges) for item in items]
     if len(items) == 1:
         colours = COLOURS[0] if paint is None else paint.to_rgba(np.clip(0.5 * (edges[1:] + edges[:-1]), *paint.get_clim()))
@@ -90,11 +101,11 @@ def draw_histograms(
         axes.minorticks_off()
         axes.set_xticks(places, labels=[f"{place:.6g}" for place in places])
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 1.05 * tallest))
-    _words(axes, label, "density", font_size)
+    _words(axes, label, "density", font_size, room)
 
 
-def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size: float) -> None:
-    """A quantity over the iterations, a curve a map."""
+def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size: float, room: float) -> None:
+    """A quantity over the iterations, a curve a map; `room` is the width of the panel, mm."""
     least, most = np.inf, 0.0
     for index, item in enumerate(maps):
         x = [row.iteration for row in item.rows]
@@ -112,7 +123,7 @@ def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size:
         axes.minorticks_off()
     if len(maps) > 1:
         _legend(axes, font_size)
-    _words(axes, "iterations", QUANTITIES[quantity], font_size)
+    _words(axes, "iterations", QUANTITIES[quantity], font_size, room)
 
 
 def _legend(axes: Axes, font_size: float) -> None:
@@ -121,8 +132,23 @@ def _legend(axes: Axes, font_size: float) -> None:
         text.set_parse_math(False)
 
 
-def _words(axes: Axes, below: str, left: str, font_size: float) -> None:
-    axes.set_xlabel(below, fontsize=0.95 * font_size, labelpad=0.2 * font_size, parse_math=False)
+def _label_below(axes: Axes, words: str, font_size: float, room: float) -> None:
+    """Words in `room` mm that end where the axes do, if they do not fit below the axes themselves."""
+    size = 0.95 * font_size
+    own = _width(axes)
+    words, fitted = fit_text(words, max(room, own), size)
+    label = axes.set_xlabel(words, fontsize=fitted, labelpad=0.2 * font_size, parse_math=False)
+    if text_width(words, fitted) > own:
+        label.set_x(1 - 0.5 * text_width(words, fitted) / own)
+
+
+def _width(axes: Axes) -> float:
+    """Of axes, mm."""
+    return float(axes.get_position().width * axes.figure.get_figwidth() * 25.4)
+
+
+def _words(axes: Axes, below: str, left: str, font_size: float, room: float) -> None:
+    _label_below(axes, below, font_size, room)
     axes.set_ylabel(left, fontsize=0.95 * font_size, labelpad=0.3 * font_size, parse_math=False)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)
     axes.spines[["top", "right"]].set_visible(False)

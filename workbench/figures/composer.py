@@ -21,6 +21,7 @@ from workbench.figures.mesh_panel import MOST_VECTORS, Scene, draw_scene, frame_
 from workbench.figures.mesh_pictures import frame_round
 from workbench.figures.page_layout import MM_OF_POINT, Box, Cell, PageLayout, Place, lay_out
 from workbench.figures.recipe import Panel, Recipe
+from workbench.figures.text_fit import fit_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,8 +34,6 @@ CENTRED = ("average-singular-value", *DESCRIPTORS)
 """Measures that are factors: 1 stands for no distortion."""
 USUAL_TEXT = 8.0
 """Font size at which lines have their usual width, points."""
-LETTER_WIDTH = 0.5
-"""Of a letter, as a part of the font size, about."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +78,8 @@ class _Composer:
     recipe: Recipe
     maps: Mapping[str, FigureMap]
     most_vectors: int
-    notes: list[str] = field(default_factory=list)
+    pictures: dict[str, list[int]] = field(default_factory=dict)
+    """Numbers of the panels that are no vector drawings, by the reason."""
 
     def compose(self) -> Composition:
         from matplotlib.figure import Figure
@@ -93,7 +93,15 @@ class _Composer:
             y = 1 - 1.125 * page.font_size * MM_OF_POINT / layout.height
             figure.text(0.5, y, page.title, ha="center", va="center", fontsize=1.2 * page.font_size, parse_math=False)
         self._draw_all(figure, layout)
-        return Composition(figure, tuple(self.notes))
+        return Composition(figure, self._notes())
+
+    def _notes(self) -> tuple[str, ...]:
+        notes = []
+        for reason, numbers in self.pictures.items():
+            listed = ", ".join(map(str, numbers))
+            words = f"Panels {listed} are pictures" if len(numbers) > 1 else f"Panel {listed} is a picture"
+            notes.append(f"{words} of {self.recipe.page.dpi} dpi ({reason}).")
+        return tuple(notes)
 
     # ------------------------------------------------------------------------------------------ what is shown
 
@@ -185,9 +193,9 @@ class _Composer:
             if panel.is_picture:
                 left -= self._draw_picture(self._axes(figure, layout, place.inside), index, place, left)
             elif panel.kind == "histogram":
-                self._draw_histogram(self._axes(figure, layout, place.inside), panel)
+                self._draw_histogram(self._axes(figure, layout, place.inside), panel, place.whole.width)
             elif panel.kind == "curves":
-                self._draw_curves(self._axes(figure, layout, place.inside), panel)
+                self._draw_curves(self._axes(figure, layout, place.inside), panel, place.whole.width)
             if place.bar is not None:
                 paint = self.paints[self._scale_name(index)]
                 draw_bar(self._axes(figure, layout, place.bar), paint, title_of(measure_of(panel)), self.recipe.page.font_size)
@@ -207,10 +215,9 @@ class _Composer:
         if letter:
             figure.text(place.whole.left / layout.width, y, letter, weight="bold", va="center", fontsize=1.1 * size)
         taken = 1.4 * size * MM_OF_POINT if letter else 0.0
-        most = int((place.whole.width - 2 * taken) / (LETTER_WIDTH * size * MM_OF_POINT))
-        words = caption if len(caption) <= most else f"{caption[: max(most - 1, 1)]}…"
+        words, fitted = fit_text(caption, place.whole.width - 2 * taken, size)
         middle = (place.whole.left + 0.5 * place.whole.width) / layout.width
-        figure.text(middle, y, words, ha="center", va="center", fontsize=size, parse_math=False)
+        figure.text(middle, y, words, ha="center", va="center", fontsize=fitted, parse_math=False)
 
     def _draw_picture(self, axes: Axes, index: int, place: Place, most: int) -> int:
         """The number of triangles that were drawn as vectors."""
@@ -223,13 +230,13 @@ class _Composer:
             axes, scene, paint, self.values.get(index), frame, as_vectors=as_vectors, size=page.font_size / USUAL_TEXT
         )  # fmt: skip
         if not as_vectors:
-            reason = "it lies in space" if not scene.is_flat else "of its texture"
+            reason = "in space" if not scene.is_flat else "textured"
             if scene.is_vector:
-                reason = f"its {count} triangles would make the file too large"
-            self.notes.append(f"Panel {index + 1} is a picture of {page.dpi} dpi: {reason}.")
+                reason = "too many triangles for a file of moderate size"
+            self.pictures.setdefault(reason, []).append(index + 1)
         return count if as_vectors else 0
 
-    def _draw_histogram(self, axes: Axes, panel: Panel) -> None:
+    def _draw_histogram(self, axes: Axes, panel: Panel, room: float) -> None:
         alike = [p for p in self.recipe.panels if p.kind == "histogram" and panel.scale and p.scale == panel.scale] or [panel]
         everything = [self._signature(name, panel) for p in alike for name in p.maps]
         low = min(float(item.values.min()) for item in everything)
@@ -241,7 +248,7 @@ class _Composer:
         paint = self.paints.get(panel.scale) if panel.scale else None
         draw_histograms(
             axes, items, edges, title_of(measure_of(panel)), self.recipe.page.font_size,
-            is_logarithmic=is_logarithmic, tallest=tallest, paint=paint,
+            room=room, is_logarithmic=is_logarithmic, tallest=tallest, paint=paint,
         )  # fmt: skip
 
     def _signature(self, name: str, panel: Panel) -> Signature:
@@ -253,9 +260,9 @@ class _Composer:
             raise WorkbenchError(f"{panel.colour} is infinite all over the map {name}; a histogram needs other values.")
         return Signature(found.title, values[finite], weights[finite] / weights[finite].sum())
 
-    def _draw_curves(self, axes: Axes, panel: Panel) -> None:
+    def _draw_curves(self, axes: Axes, panel: Panel, room: float) -> None:
         items = [self.maps[name] for name in panel.maps]
         bare = next((name for name, item in zip(panel.maps, items, strict=True) if not item.rows), None)
         if bare is not None:
             raise WorkbenchError(f"The map {bare} comes from a file, which has no curves; name maps that are solved for.")
-        draw_curves(axes, items, panel.quantity, self.recipe.page.font_size)
+        draw_curves(axes, items, panel.quantity, self.recipe.page.font_size, room)

@@ -117,7 +117,7 @@ def _below(cell: Cell, line: float) -> float:
 
 def _place(cell: Cell, whole: Box, heading: float, inner: float, line: float) -> Place:
     top = whole.top + heading
-    inset = 3.8 * line if cell.has_axes else 0.0
+    inset = 3.5 * line if cell.has_axes else 0.0
     inside = Box(whole.left + inset, top, max(whole.width - inset - (0.6 * line if inset else 0.0), 1.0), inner)
     if not (cell.has_bar or cell.is_bar):
         return Place(whole, inside)

@@ -67,7 +67,8 @@ def offers_of(window: MainWindow) -> list[Offer]:
     for dock in window.maps:
         quantity = window.quantities[dock.quantity]
         panel = _coloured(window, dock.quantity, Panel("map", (NAME,), edges=edges, caption=" ", bar=True))
-        found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible()))
+        is_shown = any(offer.panel.kind == "map" and offer.panel.scale == panel.scale for offer in found)
+        found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible() and not is_shown))
     id = window.histogram.quantity
     histogram = _coloured(window, id, Panel("histogram", (NAME,), caption=" "))
     found.append(Offer(f"Histogram: {window.quantities[id].title}", histogram))
