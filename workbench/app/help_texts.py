@@ -32,6 +32,7 @@ SHORTCUTS = """
 <tr><td>Ctrl+Alt+S, Ctrl+Shift+O</td><td>save the session, open one</td></tr>
 <tr><td>Delete</td><td>remove the selected anchors</td></tr>
 <tr><td>Esc</td><td>clear the brush</td></tr>
+<tr><td>Ctrl+E</td><td>compose a figure of what is shown: PDF, SVG, PNG</td></tr>
 <tr><td>Ctrl+H</td><td>compare maps by their shape signatures</td></tr>
 <tr><td>Ctrl+I</td><td>inspector: formula, properties and plots of the distortion</td></tr>
 <tr><td>Ctrl+Shift+R</td><td>race solvers against each other</td></tr>

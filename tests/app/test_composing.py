@@ -1,0 +1,108 @@
+"""Composing a figure in the window: what is shown there is what the figure, its files and its recipe hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from workbench.app.composing.figure_dialog import FigureDialog
+from workbench.app.composing.figure_work import NAME, Order, Subject, draw_preview, save
+from workbench.app.main_window import MainWindow
+from workbench.core.errors import WorkbenchError
+from workbench.core.run import HistoryRow
+from workbench.core.samples import make_sample
+from workbench.figures.composer import compose
+from workbench.figures.figure_maps import make_maps
+from workbench.figures.recipe import Page, Panel
+from workbench.figures.recipe_text import read_recipe
+from workbench.figures.save import save_figure
+from workbench.session.session import Session
+
+
+@pytest.fixture
+def dialog(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> Iterator[FigureDialog]:
+    window.settings.folder = str(tmp_path)
+    window.actions_by_name["figure"].trigger()
+    composing = window.commands.composing
+    dialog = composing.dialog
+    assert dialog is not None and dialog.isVisible()
+    qtbot.waitUntil(lambda: not dialog.picture.pixmap().isNull(), timeout=20000)
+    yield dialog
+    if composing.dialog is dialog:
+        dialog.close()
+    qtbot.waitUntil(lambda: not composing._works, timeout=20000)
+
+
+def next_preview(dialog: FigureDialog, qtbot: QtBot) -> None:
+    before = dialog.picture.pixmap().cacheKey()
+    qtbot.waitUntil(lambda: dialog.picture.pixmap().cacheKey() != before, timeout=20000)
+
+
+def test_panels_have_the_quantities_and_ranges_of_the_window(dialog: FigureDialog, window: MainWindow) -> None:
+    panels = dialog.chosen
+    assert [panel.kind for panel in panels[:2]] == ["source", "map"]
+    shown = {dock.quantity for dock in window.maps if dock.isVisible()}
+    coloured = [panel for panel in panels if panel.kind == "map" and panel.has_measure]
+    assert shown <= {panel.colour for panel in coloured}
+    for panel in coloured:
+        colours = window.quantities.range_of(panel.colour if panel.colour in window.quantities else "in-force")
+        assert panel.range == (colours.low, colours.high)
+
+
+def test_what_is_changed_is_seen_and_what_is_unticked_is_gone(dialog: FigureDialog, qtbot: QtBot) -> None:
+    count = len(dialog.chosen)
+    table = dialog.panels.table
+    table.item(0, 0).setCheckState(Qt.CheckState.Unchecked)
+    table.item(1, 1).setText("mine")
+    dialog.width_mm.setValue(85)
+    next_preview(dialog, qtbot)
+    assert len(dialog.chosen) == count - 1
+    assert dialog.chosen[0].caption == "mine"
+    assert dialog.page.width == 85
+    table.setCurrentCell(1, 0)
+    dialog.panels.up.click()
+    assert dialog.panels.table.item(0, 1).text() == "mine"
+    for row in range(table.rowCount()):
+        table.item(row, 0).setCheckState(Qt.CheckState.Unchecked)
+    qtbot.waitUntil(lambda: "No panel" in dialog.picture.text(), timeout=20000)
+    assert not dialog.save_button.isEnabled()
+
+
+def test_files_are_written_and_told(dialog: FigureDialog, qtbot: QtBot, tmp_path: Path) -> None:
+    for ending in ("svg", "tiff"):
+        dialog.save_wanted.emit(str(tmp_path / f"figure.{ending}"))
+        qtbot.waitUntil(lambda: "Saving" not in dialog.note.text(), timeout=20000)
+    assert (tmp_path / "figure.svg").read_bytes().startswith(b"<?xml")
+    assert "endings" in dialog.note.text()
+    assert not (tmp_path / "figure.tiff").exists()
+
+
+def test_the_recipe_of_the_window_makes_the_same_file(tmp_path: Path) -> None:
+    mesh = make_sample("bar")
+    positions = mesh.vertices * [1.2, 0.9] + 0.05 * np.sin(mesh.vertices[:, ::-1])
+    rows = tuple(HistoryRow(k, 0.1, 5.0 - k, np.nan, 1.0 / (k + 1), np.nan, 0, np.nan) for k in range(3))
+    subject = Subject("bar", Session(source="sample:bar", kind="plane", anchor_vertices=(3,), anchor_targets=((0.0, 0.0),)),
+                      mesh, "plane", positions, rows)  # fmt: skip
+    panels = (
+        Panel("map", (NAME,), "det", bar=True, range=(0.5, 3.0)),
+        Panel("histogram", (NAME,), "det"),
+        Panel("curves", (NAME,)),
+    )
+    order = Order(subject, Page(width=100.0, dpi=72), panels)
+    for name in ("figure.svg", "figure.json"):
+        save(order, tmp_path / name)
+    recipe = read_recipe(tmp_path / "figure.json")
+    save_figure(compose(recipe, make_maps(recipe.maps)).figure, tmp_path / "again.svg", 72)
+    assert (tmp_path / "again.svg").read_bytes() == (tmp_path / "figure.svg").read_bytes()
+
+
+def test_nothing_chosen_is_no_figure() -> None:
+    mesh = make_sample("bar")
+    order = Order(Subject("bar", Session(source="sample:bar"), mesh, "plane", mesh.vertices), Page(), ())
+    with pytest.raises(WorkbenchError, match="tick one"):
+        draw_preview(order, 300)
