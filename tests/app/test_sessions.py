@@ -125,7 +125,7 @@ def redo(desk: Desk, value: int) -> None:
 DEEDS = st.tuples(st.sampled_from([anchor, drag, let_go, choose, choose_solver, run, reset, undo, redo]), st.integers(0, 9))
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(DEEDS, min_size=3, max_size=10))
 def test_undo_all_and_redo_all_brings_back_the_same_session_and_map(qapp: object, deeds: list) -> None:
     desk = Desk()
@@ -212,6 +212,9 @@ def test_a_run_is_undone_to_the_map_before_it(desk: Desk) -> None:
     desk.undoing.undo()
     desk.settle()
     assert desk.now == before and not desk.document.wants_to_run
+    desk.undoing.redo()
+    desk.settle()
+    assert desk.document.wants_to_run
 
 
 def test_keys_menu_and_list_undo(window: MainWindow, qtbot: QtBot) -> None:

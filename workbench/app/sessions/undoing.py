@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -81,7 +81,10 @@ class Undoing(QObject):
         self._is_choice = name in ("Choose", "Open")
         if is_same and self.history.done == len(self.history.names) and self.history.done:
             return
-        self.history.begin_step(name, self._chosen, self._document.positions)
+        chosen = self._chosen
+        if name in ("Run", "Step"):  # what takes it back shall not run on at once
+            chosen = replace(chosen, runs=False)
+        self.history.begin_step(name, chosen, self._document.positions)
         self._pack()
         self.changed.emit()
 
