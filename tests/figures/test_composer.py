@@ -129,7 +129,7 @@ def test_maps_of_one_run_are_where_the_solver_was(maps):
 
 def test_text_is_text_and_no_mathematics(maps):
     found = figure_of(maps, Panel(maps=("rest",)), title=r"50 % of $\frac")
-    found.figure.canvas.draw()
+    found.figure.draw_without_rendering()
     assert {r"50 % of $\frac", "rest $x_1"} <= {text.get_text() for text in found.figure.texts}
 
 
@@ -168,20 +168,28 @@ def test_parts_of_a_page_do_not_overlap():
             assert is_beside or a.top >= b.top + b.height - 1e-9 or b.top >= a.top + a.height - 1e-9
 
 
+def axes_place(axes, tick):
+    """Where a tick stands, 0 at the left end of the axes, 1 at the right."""
+    return axes.transAxes.inverted().transform(axes.transData.transform((tick.get_position()[0], 0)))[0]
+
+
 def test_words_of_neighbours_keep_apart(maps):
     long = "factor " * 30
     found = figure_of(
         maps,
         Panel(maps=("pulled",), bar=True, caption=long),
         Panel(maps=("pulled",), colour="sum(sigma^2) + 1/det + 0.25*max(sigma)^2", bar=True, caption=long),
-        Panel("histogram", ("pulled",), FACTOR, caption=long),
         Panel("curves", ("pulled",), caption=long),
+        Panel("curves", ("pulled",), quantity="gradient-norm", caption=long),
+        Panel("histogram", ("pulled",), FACTOR, caption=long),
         width=100.0,
         columns=4,
         letters=True,
     ).figure
-    found.canvas.draw()
-    words = [text for text in found.texts if len(text.get_text()) > 1] + [axes.xaxis.label for axes in found.axes]
+    found.draw_without_rendering()
+    words = [text for text in found.texts if len(text.get_text()) > 1]
+    words += [label for axes in found.axes for label in (axes.xaxis.label, axes.yaxis.label)]
+    words += [tick for axes in found.axes for tick in axes.get_xticklabels() if -1e-9 <= axes_place(axes, tick) <= 1 + 1e-9]
     boxes = [text.get_window_extent() for text in words if text.get_text()]
     assert len(boxes) >= 8
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])

@@ -39,10 +39,8 @@ def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) ->
     bar.solids.set_edgecolor("face")  # no hairlines between its parts
     low, high = float(bar.vmin), float(bar.vmax)
     spans_much = low > 0 and high > LOGARITHMIC * low
-    places = tick_places(low, high, is_logarithmic=spans_much and isinstance(paint.norm, LogNorm))
-    labels = [f"{place:.6g}" for place in places]
-    while len(places) > 2 and text_width("  ".join(labels), 0.85 * font_size) > _width(axes):
-        places, labels = places[::2], labels[::2]
+    is_logarithmic = spans_much and isinstance(paint.norm, LogNorm)
+    places, labels = fitting_ticks(low, high, _width(axes), 0.85 * font_size, is_logarithmic=is_logarithmic)
     bar.set_ticks(places, labels=labels)
     bar.minorticks_off()
     bar.outline.set_linewidth(0.4)
@@ -66,6 +64,17 @@ def tick_places(low: float, high: float, *, is_logarithmic: bool) -> list[float]
     inside = [place for place in found if low - slack <= place <= high + slack]
     step = -(-len(inside) // TICKS) if inside else 1
     return inside[::step] if len(inside) >= 2 else [low, high]
+
+
+def fitting_ticks(
+    low: float, high: float, width: float, font_size: float, *, is_logarithmic: bool
+) -> tuple[list[float], list[str]]:
+    """Places and words of `tick_places`, as many of them as keep apart along `width` mm."""
+    places = tick_places(low, high, is_logarithmic=is_logarithmic)
+    labels = [f"{place:.6g}" for place in places]
+    while len(places) > 1 and text_width("  ".join(labels), font_size) > width:
+        places, labels = places[::2], labels[::2]
+    return places, labels
 
 
 def draw_histograms(
@@ -97,9 +106,10 @@ def draw_histograms(
         _legend(axes, font_size)
     if is_logarithmic:
         axes.set_xscale("log")
-        places = tick_places(float(edges[0]), float(edges[-1]), is_logarithmic=True)
         axes.minorticks_off()
-        axes.set_xticks(places, labels=[f"{place:.6g}" for place in places])
+    low, high = float(edges[0]), float(edges[-1])
+    places, labels = fitting_ticks(low, high, _width(axes), 0.85 * font_size, is_logarithmic=is_logarithmic)
+    axes.set_xticks(places, labels=labels)
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 1.05 * tallest))
     _words(axes, label, "density", font_size, room)
 
@@ -123,6 +133,7 @@ def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size:
         axes.minorticks_off()
     if len(maps) > 1:
         _legend(axes, font_size)
+    axes.locator_params(axis="x", nbins=TICKS, integer=True)
     _words(axes, "iterations", QUANTITIES[quantity], font_size, room)
 
 
@@ -149,7 +160,9 @@ def _width(axes: Axes) -> float:
 
 def _words(axes: Axes, below: str, left: str, font_size: float, room: float) -> None:
     _label_below(axes, below, font_size, room)
-    axes.set_ylabel(left, fontsize=0.95 * font_size, labelpad=0.3 * font_size, parse_math=False)
+    height = axes.get_position().height * axes.figure.get_figheight() * 25.4
+    left, size = fit_text(left, height, 0.95 * font_size)
+    axes.set_ylabel(left, fontsize=size, labelpad=0.3 * font_size, parse_math=False)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)
     axes.spines[["top", "right"]].set_visible(False)
     if axes.get_yscale() == "linear":

@@ -193,9 +193,9 @@ class _Composer:
             if panel.is_picture:
                 left -= self._draw_picture(self._axes(figure, layout, place.inside), index, place, left)
             elif panel.kind == "histogram":
-                self._draw_histogram(self._axes(figure, layout, place.inside), panel, place.whole.width)
+                self._draw_histogram(self._axes(figure, layout, place.inside), panel, place.reach)
             elif panel.kind == "curves":
-                self._draw_curves(self._axes(figure, layout, place.inside), panel, place.whole.width)
+                self._draw_curves(self._axes(figure, layout, place.inside), panel, place.reach)
             if place.bar is not None:
                 paint = self.paints[self._scale_name(index)]
                 draw_bar(self._axes(figure, layout, place.bar), paint, title_of(measure_of(panel)), self.recipe.page.font_size)

@@ -54,6 +54,11 @@ class Place:
     inside: Box
     bar: Box | None = None
 
+    @property
+    def reach(self) -> float:
+        """From the left edge of the panel to the right one of its chart, mm."""
+        return self.inside.left + self.inside.width - self.whole.left
+
 
 @dataclass(frozen=True)
 class PageLayout:
