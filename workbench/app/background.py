@@ -46,3 +46,33 @@ class Background(QObject):
             self.finished.emit(result)
         else:
             self.failed.emit(error)
+
+
+class Backgrounds(QObject):
+    """Works on threads that belong to one part of the window; its length is the number that has not ended."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._works: list[Background] = []
+
+    def __len__(self) -> int:
+        return len(self._works)
+
+    def start(self, work: Callable[[], Any], done: Callable[[Any], None], fail: Callable[[Exception], None]) -> None:
+        """Run `work`; then, in the GUI thread, `done` with what it returned or `fail` with what it raised."""
+        background = Background(work, self)
+        self._works.append(background)
+
+        def end(finish: Callable[[Any], None], outcome: Any) -> None:
+            self._works.remove(background)
+            background.deleteLater()
+            finish(outcome)
+
+        background.finished.connect(lambda result: end(done, result))
+        background.failed.connect(lambda error: end(fail, error))
+        background.start()
+
+    def wait(self) -> None:
+        """Let the threads end before the window does."""
+        for work in self._works:
+            work.wait()

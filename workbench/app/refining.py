@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from workbench.app.background import Background
+from workbench.app.background import Backgrounds
 from workbench.app.refine_dialog import RefineDialog
 from workbench.app.refine_work import CurvePicture, CurveRequest, RefineRequest, draw_curves, refine_into
 from workbench.app.reporter import source_name
@@ -25,14 +24,13 @@ class Refining(QObject):
         super().__init__(window)
         self._window = window
         self._document = window.document
-        self._works: list[Background] = []
+        self._works = Backgrounds(self)
         self._curves: CurvePicture | None = None
         self.dialog: RefineDialog | None = None
 
     def wait(self) -> None:
         """Let threads end before the window does."""
-        for work in self._works:
-            work.wait()
+        self._works.wait()
 
     def ask(self) -> None:
         """Open the dialog for the mesh and the map on the screen."""
@@ -79,7 +77,7 @@ class Refining(QObject):
             else:
                 window.status.say(f"The refined map is in {path}.")
 
-        self._start(lambda: refine_into(Path(path), request), done, window.reporter.show_exception)
+        self._works.start(lambda: refine_into(Path(path), request), done, window.reporter.show_exception)
 
     # ------------------------------------------------------------------------------------------ curves
 
@@ -108,7 +106,7 @@ class Refining(QObject):
                 is_ours = isinstance(error, WorkbenchError)
                 dialog.show_no_curves(error.sentence if is_ours else f"{type(error).__name__}: {error}")
 
-        self._start(lambda: draw_curves(request, lambda: self.dialog is not dialog), done, fail)
+        self._works.start(lambda: draw_curves(request, lambda: self.dialog is not dialog), done, fail)
 
     def _save_figure(self, path: str) -> None:
         from workbench.figures.save import save_figure
@@ -122,18 +120,3 @@ class Refining(QObject):
             return
         self._window.settings.folder = str(Path(path).parent)
         self._window.status.say(f"Saved {path}.")
-
-    # ------------------------------------------------------------------------------------------ threads
-
-    def _start(self, work: Callable[[], Any], done: Callable[[Any], None], fail: Callable[[Exception], None]) -> None:
-        background = Background(work, self)
-        self._works.append(background)
-
-        def end(finish: Callable[[Any], None], outcome: Any) -> None:
-            self._works.remove(background)
-            background.deleteLater()
-            finish(outcome)
-
-        background.finished.connect(lambda result: end(done, result))
-        background.failed.connect(lambda error: end(fail, error))
-        background.start()

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt
 
-from workbench.app.background import Background
+from workbench.app.background import Backgrounds
 from workbench.app.composing.figure_dialog import PREVIEW, FigureDialog
 from workbench.app.composing.figure_work import ENDINGS, Order, Subject, draw_preview, save
 from workbench.app.composing.offers import offers_of, subject_of
@@ -24,15 +23,14 @@ class Composing(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
-        self._works: list[Background] = []
+        self._works = Backgrounds(self)
         self._subject: Subject | None = None
         self._is_drawing = self._is_stale = False
         self.dialog: FigureDialog | None = None
 
     def wait(self) -> None:
         """Let threads end before the window does."""
-        for work in self._works:
-            work.wait()
+        self._works.wait()
 
     def ask(self) -> None:
         """Open the dialog for the map on the screen."""
@@ -88,7 +86,7 @@ class Composing(QObject):
                 dialog.show_no_preview(sentence_of(error))
             self._drawn()
 
-        self._start(lambda: draw_preview(order, pixels), done, fail)
+        self._works.start(lambda: draw_preview(order, pixels), done, fail)
 
     def _drawn(self) -> None:
         self._is_drawing = False
@@ -118,22 +116,7 @@ class Composing(QObject):
             else:
                 window.error_bar.show_message(sentence_of(error))
 
-        self._start(lambda: save(order, Path(path)), done, fail)
-
-    # ------------------------------------------------------------------------------------------ threads
-
-    def _start(self, work: Callable[[], Any], done: Callable[[Any], None], fail: Callable[[Exception], None]) -> None:
-        background = Background(work, self)
-        self._works.append(background)
-
-        def end(finish: Callable[[Any], None], outcome: Any) -> None:
-            self._works.remove(background)
-            background.deleteLater()
-            finish(outcome)
-
-        background.finished.connect(lambda result: end(done, result))
-        background.failed.connect(lambda error: end(fail, error))
-        background.start()
+        self._works.start(lambda: save(order, Path(path)), done, fail)
 
 
 def sentence_of(error: Exception) -> str:
