@@ -60,6 +60,7 @@ class Autosave(QObject):
         self._timer = QTimer(self)
         self._timer.setInterval(INTERVAL)
         self._timer.timeout.connect(self.keep)
+        window.document.changing.connect(self._keep_before_opening)
 
     def start(self) -> None:
         """Keep states from now on, and offer what was left behind."""
@@ -78,6 +79,11 @@ class Autosave(QObject):
         if now != self._kept:
             self._kept = now
             desk.save(str(self.path), is_copy=True)
+
+    def _keep_before_opening(self, name: str, key: str) -> None:
+        """What was not saved gives way to another mesh: undo leads back to it, and so does the last session."""
+        if self._lock is not None and name.startswith("Open") and self._desk.is_modified and self._desk.has_something:
+            self._desk.save(str(self._folder / LAST), is_copy=True)
 
     def end(self) -> None:
         """The window ends by itself: nothing was lost. What has no file is kept as the last session."""

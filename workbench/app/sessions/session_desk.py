@@ -147,8 +147,10 @@ class SessionDesk(QObject):
             self.changed.emit()
 
     def mark_modified(self) -> None:
-        """The session is not as its file has it any longer."""
+        """The session is not as its file has it any longer, nor will be once the mesh that is being read is there."""
         self._modify("", "")
+        if self._document.opening_source:
+            self._pending_path = ""
 
     # ------------------------------------------------------------------------------------------ threads
 
