@@ -12,12 +12,14 @@ from pytestqt.qtbot import QtBot
 
 from workbench.app.composing.figure_dialog import FigureDialog
 from workbench.app.composing.figure_work import NAME, Order, Subject, draw_preview, save
+from workbench.app.composing.offers import offers_of, subject_of
 from workbench.app.main_window import MainWindow
 from workbench.core.errors import WorkbenchError
 from workbench.core.run import HistoryRow
 from workbench.core.samples import make_sample
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
+from workbench.figures.mesh_panel import scene_of
 from workbench.figures.recipe import Page, Panel
 from workbench.figures.recipe_text import read_recipe
 from workbench.figures.save import save_figure
@@ -106,3 +108,17 @@ def test_nothing_chosen_is_no_figure() -> None:
     order = Order(Subject("bar", Session(source="sample:bar"), mesh, "plane", mesh.vertices), Page(), ())
     with pytest.raises(WorkbenchError, match="tick one"):
         draw_preview(order, 300)
+
+
+def test_a_solid_is_seen_as_its_view_is_turned(solid_window: MainWindow) -> None:
+    view = solid_window.target.view
+    view.set_camera(view.camera.rotated(80.0, 40.0, view.size_in_pixels))
+    panel = offers_of(solid_window)[1].panel
+    subject = subject_of(solid_window)
+    assert subject is not None
+    scene = scene_of(subject.map, panel)
+    height, width = 400, 600
+    there, _ = view.camera.project(subject.positions, (width, height))
+    scale = view.camera.pixels_per_unit((width, height))
+    here = scene.points[:, :2] * [scale, -scale]
+    np.testing.assert_allclose(here - here[0], there - there[0], atol=1e-6)

@@ -55,6 +55,8 @@ def test_files_are_named_from_where_the_recipe_is(tmp_path):
         ({"panels": [{"kind": "histogram", "maps": ["a"], "colour": "chequered"}]}, "no values"),
         ({"panels": [{"kind": "colour-bar", "scale": "s"}]}, "'s'"),
         ({"panels": [{"maps": ["a"], "scale": "s"}, {"maps": ["a"], "scale": "s", "colour": "det"}]}, "share"),
+        ({"panels": [{"maps": ["a"], "view": [[1, 0, 0], [0, 1, 0], [0, 1, 0]]}]}, "right angles"),
+        ({"panels": [{"maps": ["a"], "view": [[1, 0], [0, 1]]}]}, "right angles"),
         ({"page": {"width": 1e9}}, "width"),
         ({"page": {"width": 2000, "dpi": 2400}}, "too large"),
         ({"page": {"background": "url(x)"}}, "background"),

@@ -70,7 +70,8 @@ def scene_of(map: FigureMap, panel: Panel) -> Scene:
     points = map.mesh.vertices if panel.kind == "source" else map.positions
     if points.shape[1] == 3:
         mesh = map.mesh if map.mesh.vertices.shape[1] == 3 else Mesh(points, map.mesh.simplices)
-        points = points @ view_of(mesh).T
+        axes = np.array(panel.view) if panel.view else view_of(mesh)
+        points = points @ axes.T
     return Scene(map, panel, points, skin_of(map.mesh))
 
 

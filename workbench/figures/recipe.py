@@ -64,6 +64,7 @@ class Panel:
     range : (low, high)   of the colours; None: fitted
     logarithmic : bool    whether the colours are; None: where they span much
     frame : str           maps of one name are drawn on one scale of length
+    view : axes           three rows: to the right, up, to the viewer, of what lies in space; empty: where it shows itself well
     bar : bool            a colour bar below
     caption : str         above; empty for the label of the map, where there is one
     edges, anchors : bool     whether they are drawn
@@ -80,6 +81,7 @@ class Panel:
     range: tuple[float, float] | None = None
     logarithmic: bool | None = None
     frame: str = ""
+    view: tuple[tuple[float, ...], ...] = ()
     bar: bool = False
     caption: str = ""
     edges: bool = False

@@ -8,6 +8,8 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from workbench.core.errors import WorkbenchError
 from workbench.figures.recipe import BACKGROUNDS, KINDS, QUANTITIES, MapChoice, Page, Panel, Recipe
 from workbench.io.atomic import write_text
@@ -214,6 +216,14 @@ def _range(what: str, value: Any) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
+def _view(what: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    lines = [schema.rows(what, line, 3) for line in schema.rows(what, value, 3)]
+    axes = tuple(tuple(schema.number(what, entry, -1.0, 1.0) for entry in line) for line in lines)
+    if [len(line) for line in axes] != [3, 3, 3] or np.abs(np.array(axes) @ np.array(axes).T - np.eye(3)).max() > 1e-4:
+        raise schema.refuse(what, value, "three axes of length 1, at right angles")
+    return axes
+
+
 PAGE: dict[str, schema.Check] = {
     "width": _within(20.0, 2000.0),
     "dpi": _whole(36, 2400),
@@ -232,6 +242,7 @@ PANEL: dict[str, schema.Check] = {
     "range": _range,
     "logarithmic": schema.flag,
     "frame": _name,
+    "view": _view,
     "bar": schema.flag,
     "caption": _caption,
     "edges": schema.flag,

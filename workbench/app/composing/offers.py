@@ -16,6 +16,7 @@ from workbench.session.session import Session
 if TYPE_CHECKING:
     from workbench.app.history import History
     from workbench.app.main_window import MainWindow
+    from workbench.app.views.mesh_view import MeshView
     from workbench.app.views.pane import ViewPane
 
 
@@ -66,7 +67,8 @@ def offers_of(window: MainWindow) -> list[Offer]:
     ]
     for dock in window.maps:
         quantity = window.quantities[dock.quantity]
-        panel = _coloured(window, dock.quantity, Panel("map", (NAME,), edges=edges, caption=" ", bar=True))
+        bare = Panel("map", (NAME,), edges=edges, caption=" ", bar=True, view=_axes(dock.view))
+        panel = _coloured(window, dock.quantity, bare)
         is_shown = any(offer.panel.kind == "map" and offer.panel.scale == panel.scale for offer in found)
         found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible() and not is_shown))
     id = window.histogram.quantity
@@ -81,10 +83,15 @@ def offers_of(window: MainWindow) -> list[Offer]:
 def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     """A view with its colours, or its pattern."""
     style = window.colouring.style_of(pane)
-    panel = Panel(kind, (NAME,), caption="Source" if kind == "source" else "Target", edges=edges)
+    panel = Panel(kind, (NAME,), caption="Source" if kind == "source" else "Target", edges=edges, view=_axes(pane.view))
     if style in PATTERNS:
         return replace(panel, colour=PLAIN if style == "plain" else CHEQUERED)
     return _coloured(window, style, replace(panel, bar=True))
+
+
+def _axes(view: MeshView) -> tuple[tuple[float, ...], ...]:
+    """How the camera of a view is turned."""
+    return tuple(tuple(line) for line in view.camera.axes.tolist())
 
 
 def _coloured(window: MainWindow, id: str, panel: Panel) -> Panel:
