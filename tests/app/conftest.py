@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -50,8 +51,20 @@ def _address(widget: QWidget) -> int:
     """Of Qt's own object: Python makes a new wrapper each time it asks."""
     return int(shiboken6.getCppPointer(widget)[0])
 
+
 CHOICES = ("distortion", "distortion_parameters", "solver", "fixed_boundary", "allow_inversions", "match_area")
 """Fields of the session that a test may change."""
+
+
+PATIENCE = 60_000
+"""Milliseconds: whatever comes first on a machine waits for kernels that are compiled once."""
+
+
+@pytest.fixture
+def qtbot(qtbot: QtBot) -> QtBot:
+    """That of pytest-qt, with patience: a wait that is over early costs nothing."""
+    qtbot.waitUntil = functools.partial(qtbot.waitUntil, timeout=PATIENCE)
+    return qtbot
 
 
 @pytest.fixture(autouse=True)

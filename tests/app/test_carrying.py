@@ -181,7 +181,7 @@ def test_letting_go_is_undone_and_done_again(carrying: MainWindow, ring: tuple[P
     carried.let_go()
     assert undoing.history.undo_name == "Carried surface" and not carrying.document.session.carried
     undoing.undo()
-    qtbot.waitUntil(lambda: carried.surface is not None, timeout=30_000)
+    qtbot.waitUntil(lambda: carried.surface is not None)
     assert carried.source == str(ring[0])
     undoing.redo()
     qtbot.waitUntil(lambda: carried.surface is None)

@@ -33,16 +33,16 @@ def dialog(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> Iterator[FigureD
     composing = window.commands.composing
     dialog = composing.dialog
     assert dialog is not None and dialog.isVisible()
-    qtbot.waitUntil(lambda: not dialog.picture.pixmap().isNull(), timeout=20000)
+    qtbot.waitUntil(lambda: not dialog.picture.pixmap().isNull())
     yield dialog
     if composing.dialog is dialog:
         dialog.close()
-    qtbot.waitUntil(lambda: not composing._works, timeout=20000)
+    qtbot.waitUntil(lambda: not composing._works)
 
 
 def next_preview(dialog: FigureDialog, qtbot: QtBot) -> None:
     before = dialog.picture.pixmap().cacheKey()
-    qtbot.waitUntil(lambda: dialog.picture.pixmap().cacheKey() != before, timeout=20000)
+    qtbot.waitUntil(lambda: dialog.picture.pixmap().cacheKey() != before)
 
 
 def test_panels_have_the_quantities_and_ranges_of_the_window(dialog: FigureDialog, window: MainWindow) -> None:
@@ -71,14 +71,14 @@ def test_what_is_changed_is_seen_and_what_is_unticked_is_gone(dialog: FigureDial
     assert dialog.panels.table.item(0, 1).text() == "mine"
     for row in range(table.rowCount()):
         table.item(row, 0).setCheckState(Qt.CheckState.Unchecked)
-    qtbot.waitUntil(lambda: "No panel" in dialog.picture.text(), timeout=20000)
+    qtbot.waitUntil(lambda: "No panel" in dialog.picture.text())
     assert not dialog.save_button.isEnabled()
 
 
 def test_files_are_written_and_told(dialog: FigureDialog, qtbot: QtBot, tmp_path: Path) -> None:
     for ending in ("svg", "tiff"):
         dialog.save_wanted.emit(str(tmp_path / f"figure.{ending}"))
-        qtbot.waitUntil(lambda: "Saving" not in dialog.note.text(), timeout=20000)
+        qtbot.waitUntil(lambda: "Saving" not in dialog.note.text())
     assert (tmp_path / "figure.svg").read_bytes().startswith(b"<?xml")
     assert "endings" in dialog.note.text()
     assert not (tmp_path / "figure.tiff").exists()

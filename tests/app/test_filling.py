@@ -52,7 +52,7 @@ def test_the_solid_is_written_and_opened(
     path = Path(dialog.file.text())
     assert path == tmp_path / "blob-filled.mesh"
     dialog.accept_button.click()
-    qtbot.waitUntil(lambda: bool(loads(window)), timeout=10000)
+    qtbot.waitUntil(lambda: bool(loads(window)))
     assert loads(window) == [str(path)] and path.exists()
     assert asked == [(make_sample("blob").simplex_count, pytest.approx(30.0))]
     assert window.commands.filling.dialog is None
@@ -66,12 +66,12 @@ def test_what_cannot_be_filled_is_said_in_the_dialog(
         dialog.source.setText(source)
         assert not dialog.error.isVisible()
         dialog.accept_button.click()
-        qtbot.waitUntil(dialog.error.isVisible, timeout=10000)
+        qtbot.waitUntil(dialog.error.isVisible)
         assert words in dialog.error.text() and dialog.accept_button.isEnabled()
     monkeypatch.setattr(filling, "can_fill", lambda: False)
     dialog.source.setText("sample:blob")
     dialog.accept_button.click()
-    qtbot.waitUntil(dialog.error.isVisible, timeout=10000)
+    qtbot.waitUntil(dialog.error.isVisible)
     assert "[fill]" in dialog.error.text()
     dialog.file.setText(str(tmp_path / "solid.stl"))
     dialog.accept_button.click()
@@ -90,10 +90,10 @@ def test_cancel_ends_the_work_and_keeps_the_dialog(
 
     monkeypatch.setattr(filling, "fill_surface", fill)
     dialog.accept_button.click()
-    qtbot.waitUntil(lambda: "takes long" in dialog.words.text(), timeout=10000)
+    qtbot.waitUntil(lambda: "takes long" in dialog.words.text())
     assert dialog.progress.isVisible() and not dialog.accept_button.isEnabled()
     dialog.cancel_button.click()
-    qtbot.waitUntil(dialog.accept_button.isEnabled, timeout=10000)
+    qtbot.waitUntil(dialog.accept_button.isEnabled)
     assert "cancelled" in dialog.error.text() and not dialog.progress.isVisible()
     assert not loads(window)
 
@@ -113,5 +113,5 @@ def test_a_closed_dialog_ends_the_work(
     dialog.accept_button.click()
     qtbot.waitUntil(lambda: window.commands.filling._work is not None)
     dialog.close()
-    qtbot.waitUntil(lambda: bool(ended) and window.commands.filling._work is None, timeout=10000)
+    qtbot.waitUntil(lambda: bool(ended) and window.commands.filling._work is None)
     assert not window.error_bar.isVisible()

