@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.covered_component import covered_component
 from workbench.core.mesh import Mesh
 from workbench.core.predicates import orientation, orientation_3d, rays_coincide, segments_meet
 from workbench.core.segment_pairs import box_pairs
@@ -99,7 +100,9 @@ def _boundary(mesh: Mesh, triangles: Integers, positions: Floats) -> Verdict:
             f"first {_edge(offenders[0, 0])} and {_edge(offenders[0, 1])}."
         )
         return Verdict(False, reason, boundary_pairs=offenders)
-    covered = _covered_component(component, edges, positions)
+    covered = covered_component(
+        component, edges, positions, lambda point, others: _winds_round(point, edges[others], positions)
+    )
     if covered >= 0:
         first = int(np.flatnonzero(mesh.topology.components == covered)[0])
         reason = f"The component of triangle {first} (from 0) lies on top of another component."
@@ -180,22 +183,10 @@ def _meeting_edges(edges: Integers, positions: Floats) -> Integers:
     return pairs[meets]
 
 
-def _covered_component(belongs: Integers, edges: Integers, positions: Floats) -> int:
-    """Number of a component that has a boundary vertex inside the image of another component; -1 where there is none.
-
-    The boundaries do not meet but in vertices of both, so one point of its own tells for the whole component.
-    `belongs` (b,) is the component of each boundary edge.
-    """
-    tails, heads = positions[edges[:, 0]], positions[edges[:, 1]]
-    components = np.unique(belongs)
-    for component in components if len(components) > 1 else ():
-        own, others = np.flatnonzero(belongs == component), belongs != component
-        alone = own[~np.isin(edges[own, 0], edges[others])]
-        point = tails[alone[:1]] if len(alone) else 0.5 * (tails[own[:1]] + heads[own[:1]])
-        upward = (tails[:, 1] <= point[:, 1]) & (point[:, 1] < heads[:, 1]) & others
-        downward = (heads[:, 1] <= point[:, 1]) & (point[:, 1] < tails[:, 1]) & others
-        winding = np.count_nonzero(orientation(tails[upward], heads[upward], point) > 0)
-        winding -= np.count_nonzero(orientation(tails[downward], heads[downward], point) < 0)
-        if winding:
-            return int(component)
-    return -1
+def _winds_round(point: Floats, edges: Integers, positions: Floats) -> bool:
+    """Whether closed polygons wind round a point (2,), by the edges that cross the ray to its right."""
+    tails, heads, point = positions[edges[:, 0]], positions[edges[:, 1]], point[None]
+    upward = (tails[:, 1] <= point[:, 1]) & (point[:, 1] < heads[:, 1])
+    downward = (heads[:, 1] <= point[:, 1]) & (point[:, 1] < tails[:, 1])
+    winding = np.count_nonzero(orientation(tails[upward], heads[upward], point) > 0)
+    return winding != np.count_nonzero(orientation(tails[downward], heads[downward], point) < 0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
+from workbench.core.covered_component import covered_component
 from workbench.core.facets import facet_table
 from workbench.core.mesh import Mesh
 from workbench.core.solid_stars import doubled_facets, nested_fans, overlapping_edges
@@ -80,7 +81,9 @@ def boundary_of_solid(mesh: Mesh, tetrahedra: Integers, positions: Floats) -> Ve
             f"first {_facet(offenders[0, 0])} and {_facet(offenders[0, 1])}."
         )
         return Verdict(False, reason, boundary_pairs=offenders)
-    covered = _covered_component(component, boundary, positions)
+    covered = covered_component(
+        component, boundary, positions, lambda point, others: winding_number(point, boundary[others], positions) > 0.5
+    )
     if covered >= 0:
         first = int(np.flatnonzero(mesh.topology.components == covered)[0])
         return Verdict(False, f"The component of tetrahedron {first} (from 0) lies inside another component.")
@@ -93,22 +96,6 @@ def _facet(corners: Integers) -> str:
 
 def _counted(count: int, one: str, many: str) -> str:
     return f"{count} {one if count == 1 else many}"
-
-
-def _covered_component(belongs: Integers, boundary: Integers, positions: Floats) -> int:
-    """Number of a component that lies inside another one; -1 where there is none.
-
-    The boundaries do not meet but in common vertices and edges, so one point of its own tells for the whole component.
-    `belongs` (b,) is the component of each boundary triangle.
-    """
-    components = np.unique(belongs)
-    for component in components if len(components) > 1 else ():
-        own, others = boundary[belongs == component], boundary[belongs != component]
-        alone = own[~np.isin(own, others)]
-        point = positions[alone[0]] if len(alone) else positions[own[0]].mean(axis=0)
-        if winding_number(point, others, positions) > 0.5:
-            return int(component)
-    return -1
 
 
 def winding_number(point: Floats, triangles: Integers, positions: Floats) -> float:
