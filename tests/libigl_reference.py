@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import igl
 import numpy as np
 
 from workbench.core.constraints import Anchors
 from workbench.core.mesh import Mesh
+from workbench.core.problem import Problem
 
 SOFT = 1e5
 """Weight of anchors, which are soft in libigl's SLIM: that of its own examples."""
@@ -37,6 +40,30 @@ def slim_solver(mesh: Mesh, start: np.ndarray, anchors: Anchors | None = None) -
         return np.ascontiguousarray(igl.slim_solve(data, iterations)[:, :dimension])
 
     return advance
+
+
+@dataclass(frozen=True, eq=False)
+class SlimRun:
+    """Where SLIM ended: its seconds (precomputation among them), iterations, `energy` and `positions` of the last map."""
+
+    seconds: float
+    iterations: int
+    energy: float
+    positions: np.ndarray
+
+
+def run_slim(problem: Problem, start: np.ndarray, is_there: Callable[[float], bool], budget: float) -> SlimRun:
+    """SLIM from `start` until `is_there` holds for the problem's energy of its map, or it has spent `budget` seconds."""
+    begin = time.perf_counter()
+    slim = slim_solver(problem.mesh, start, problem.anchors)
+    spent, iterations, energy, positions = time.perf_counter() - begin, 0, np.inf, start
+    while not is_there(energy) and spent < budget:
+        begin = time.perf_counter()
+        positions = slim(1)
+        spent += time.perf_counter() - begin
+        iterations += 1
+        energy = problem.energy(positions)
+    return SlimRun(spent, iterations, energy, positions)
 
 
 def arap_map(mesh: Mesh, start: np.ndarray, anchors: Anchors, iterations: int) -> np.ndarray:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # run as a file, too
 
-from tests.libigl_reference import slim_solver
+from tests.libigl_reference import run_slim
 from workbench.core.distortion import Distortion
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
@@ -38,21 +38,14 @@ def compare(triangles: int, budget: float) -> None:
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024**2
     _print_ours(mesh.simplex_count, start_seconds, ours, memory)
 
-    begin = time.perf_counter()
-    slim = slim_solver(mesh, start)
-    spent, iterations, energy = time.perf_counter() - begin, 0, ours.initial.energy
     goal = ours.state.energy * (1 + TOLERANCE)
-    while energy > goal and spent < budget:
-        begin = time.perf_counter()
-        positions = slim(1)
-        spent += time.perf_counter() - begin
-        iterations += 1
-        energy = problem.energy(positions)
-    reached = "reached ours" if energy <= goal else f"still {energy / ours.state.energy - 1:.2e} above ours"
-    ratio = spent / ours.seconds["total"]
+    slim = run_slim(problem, start, lambda energy: energy <= goal, budget)
+    is_there = slim.energy <= goal
+    reached = "reached ours" if is_there else f"still {slim.energy / ours.state.energy - 1:.2e} above ours"
+    spent, each = slim.seconds, slim.seconds / max(slim.iterations, 1)
     print(
-        f"  libigl SLIM  {spent:8.3f} s  {iterations:3d} iterations  {spent / max(iterations, 1):.3f} s each, {reached}\n"
-        f"  ratio        {'' if energy <= goal else 'at least '}{ratio:.1f}x",
+        f"  libigl SLIM  {spent:8.3f} s  {slim.iterations:3d} iterations  {each:.3f} s each, {reached}\n"
+        f"  ratio        {'' if is_there else 'at least '}{spent / ours.seconds['total']:.1f}x",
         flush=True,
     )
 

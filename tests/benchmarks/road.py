@@ -14,11 +14,9 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # run as a file, too
 
-from tests.libigl_reference import slim_solver
+from tests.libigl_reference import run_slim
 from workbench.core.distortion import Distortion
 from workbench.core.mesh import Mesh
 from workbench.core.problem import Problem
@@ -62,18 +60,11 @@ def travel(name: str, triangles: int, budget: float) -> None:
             fast_seconds = seconds
     goal = energies["fast", "tutte"] * (1.0 + NEAR)
     problem = Problem.create(mesh, "parameterize", distortion)
-    begin = time.perf_counter()
-    slim = slim_solver(mesh, tutte)
-    spent, iterations, energy = time.perf_counter() - begin, 0, np.inf
-    while not energy <= goal and spent < budget:
-        begin = time.perf_counter()
-        positions = slim(1)
-        spent += time.perf_counter() - begin
-        iterations += 1
-        energy = problem.energy(positions)
-    end = "there" if energy <= goal else f"still {energy / goal - 1.0:.1e} above"
-    print(f"  libigl SLIM       from tutte  {iterations:4d} its  {spent:7.3f} s  {end}", flush=True)
-    print(f"  SLIM's seconds over those of fast from tutte: {'' if energy <= goal else 'more than '}{spent / fast_seconds:.1f}")
+    slim = run_slim(problem, tutte, lambda energy: energy <= goal, budget)
+    end = "there" if slim.energy <= goal else f"still {slim.energy / goal - 1.0:.1e} above"
+    print(f"  libigl SLIM       from tutte  {slim.iterations:4d} its  {slim.seconds:7.3f} s  {end}", flush=True)
+    bound = "" if slim.energy <= goal else "more than "
+    print(f"  SLIM's seconds over those of fast from tutte: {bound}{slim.seconds / fast_seconds:.1f}")
 
 
 if __name__ == "__main__":

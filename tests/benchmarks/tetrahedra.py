@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +19,7 @@ from scipy.spatial.transform import Rotation
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # run as a file, too
 
-from tests.libigl_reference import slim_solver
+from tests.libigl_reference import run_slim
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.linear_solver import make_linear_solver
@@ -74,20 +73,13 @@ def ours(mesh: Mesh, target: np.ndarray, start: np.ndarray, name: str, words: st
     return result
 
 
-def theirs(mesh: Mesh, problem: Problem, start: np.ndarray, goal: float, budget: float) -> None:
+def theirs(problem: Problem, start: np.ndarray, goal: float, budget: float) -> None:
     """SLIM from `start` until it is near the energy `goal`, printed."""
-    begin = time.perf_counter()
-    slim = slim_solver(mesh, start, problem.anchors)
-    spent, count, energy, positions = time.perf_counter() - begin, 0, np.inf, start
-    while not abs(energy / goal - 1.0) <= REACHED and spent < budget:
-        begin = time.perf_counter()
-        positions = slim(1)
-        spent += time.perf_counter() - begin
-        count += 1
-        energy = problem.energy(positions)
+    slim = run_slim(problem, start, lambda energy: abs(energy / goal - 1.0) <= REACHED, budget)
+    each = 1e3 * slim.seconds / max(slim.iterations, 1)
     print(
-        f"  libigl SLIM   turned start {spent:7.2f} s  {count:3d} steps of {1e3 * spent / max(count, 1):4.0f} ms,"
-        f" energy {energy / goal - 1.0:+.1e} of ours, anchors off by {problem.anchor_error(positions):.1e}",
+        f"  libigl SLIM   turned start {slim.seconds:7.2f} s  {slim.iterations:3d} steps of {each:4.0f} ms,"
+        f" energy {slim.energy / goal - 1.0:+.1e} of ours, anchors off by {problem.anchor_error(slim.positions):.1e}",
         flush=True,
     )
 
@@ -103,7 +95,7 @@ def main(sizes: list[int], budget: float, names: list[str]) -> None:
                 result = ours(mesh, target, mesh.vertices, name, "rest")
             ours(mesh, target, target, names[0], "turned start")
             if budget > 0.0:
-                theirs(mesh, problem_of(mesh, target), target, result.state.energy, budget)
+                theirs(problem_of(mesh, target), target, result.state.energy, budget)
 
 
 if __name__ == "__main__":
