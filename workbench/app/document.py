@@ -7,12 +7,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.anchor_set import AnchorSet
+from workbench.app.choices import PROBLEM_FIELDS, SOLVER_FIELDS, START_FIELDS, EarlierChoices
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_anchors import SAMPLE, first_anchors
+from workbench.app.orders import Orders
 from workbench.app.quantities import Quantity
 from workbench.app.sessions.restoring import (
     Wanted,
@@ -35,24 +36,13 @@ from workbench.engine.messages import (
     Loaded,
     Pause,
     Refused,
-    Reset,
-    Run,
-    SetAnchors,
-    SetProblem,
     Snapshot,
     Step,
     TakeMap,
-    Watch,
 )
-from workbench.engine.session_commands import leg_of, problem_command, solver_command, take_up
+from workbench.engine.session_commands import leg_of
 from workbench.session.journal import Journal
 from workbench.session.session import Session
-
-PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions"}
-SOLVER_FIELDS = {"solver", "solver_parameters"}
-START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
-REFUSABLE = {"SetProblem": PROBLEM_FIELDS, "SetSolver": SOLVER_FIELDS, "Reset": START_FIELDS}
-"""Commands that the engine may refuse -> fields of the session that then go back to what they were."""
 
 
 class Document(QObject):
@@ -77,26 +67,24 @@ class Document(QObject):
     def __init__(self, bridge: EngineBridge, session: Session | None = None) -> None:
         super().__init__()
         self._bridge = bridge
+        self._orders = Orders(bridge)
         self.session = session or Session()
         self.generation = 0
         self.loaded: Loaded | None = None
         self.snapshot: Snapshot | None = None
         self.anchors = AnchorSet.none()
-        self.anchor_serial = 0
         self.selected = -1
         self.wants_to_run = False
         self.is_held = self._is_told = False
         self.opening_source = ""
         self._attempt: Session | None = None
         self._runs_after_open = False
-        self._before: dict[str, dict[str, Any]] = {}
+        self._earlier = EarlierChoices()
         self._wanted: Wanted | None = None
         self.journal = Journal()
-        self._problem_serial = 0
         self._is_opening = False
         self._has_finished = False
         self._watches = Watches()
-        self._watched = Watch()
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
@@ -119,6 +107,11 @@ class Document(QObject):
     def positions(self) -> Floats | None:
         """The newest map (n, d)."""
         return self.snapshot.positions if self.snapshot is not None else None
+
+    @property
+    def anchor_serial(self) -> int:
+        """The number of the newest anchors; a snapshot tells which it holds."""
+        return self._orders.anchor_serial
 
     @property
     def complete_session(self) -> Session:
@@ -156,12 +149,9 @@ class Document(QObject):
         self._attempt = replace(self.session, source=source, kind=kind, fixes=fixes)
         self._runs_after_open = run
         if wanted is not None:  # its own choices follow with its map: those of another mesh need not suit this one
-            self._bridge.post(self._problem(Session()))
-            self._bridge.post(solver_command(Session()))
-            self._problem_serial += 1  # nobody need hear that the map which goes does not suit them
+            self._orders.choices_unheard()
         else:
-            self._bridge.post(self._problem(self._attempt))
-            self._bridge.post(solver_command(self._attempt))
+            self._orders.choices(self._attempt)
         self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
         self.opening.emit(source)
 
@@ -176,11 +166,10 @@ class Document(QObject):
 
     def _take_up(self, wanted: Wanted) -> None:
         assert self.loaded is not None and wanted.positions is not None
-        self._before["TakeUp"] = {**vars(self.complete_session)}
-        self._problem_serial, self.anchor_serial = self._problem_serial + 1, self.anchor_serial + 1
+        self._earlier.keep_all(self.complete_session)
+        self._orders.number_anew()
         self._put(wanted.session)
-        serials = self.anchor_serial, self._problem_serial
-        self._bridge.post(take_up(wanted.session, wanted.positions, self.loaded.generation, *serials))
+        self._orders.take_up(wanted.session, wanted.positions, self.loaded.generation)
         self.history_restarted.emit()
         if wanted.runs:
             self._run()
@@ -244,23 +233,14 @@ class Document(QObject):
             self.refused.emit(report)
         elif report.generation == self.generation or report.command != "Load":
             self.opening_source = ""
-            if report.kept is not None and report.serial != self._problem_serial:
+            if report.kept is not None and report.serial != self._orders.problem_serial:
                 return  # another choice is on its way already
-            if report.kept is not None:
-                kept = report.kept
-                self.session = replace(
-                    self.session,
-                    distortion=kept.distortion,
-                    distortion_parameters=dict(kept.parameters),
-                    fixed_boundary=kept.fixed_boundary,
-                    allow_inversions=kept.allow_inversions,
-                )
+            restored = self._earlier.restored(self.session, report)
+            if restored is not None:
+                self.session = restored
                 self.session_changed.emit()
             elif report.command == "TakeUp":
-                self._put(Session(**self._before.pop("TakeUp", {})))
-            elif report.command in REFUSABLE:
-                self.session = replace(self.session, **self._before.pop(report.command, {}))
-                self.session_changed.emit()
+                self._put(self._earlier.before_taking_up())
             elif report.command in ("Run", "Step"):
                 self.wants_to_run = False
                 self.session_changed.emit()
@@ -321,13 +301,11 @@ class Document(QObject):
         new fields comes at once, also while the solver rests. Nothing wanted any longer: call it with the owner alone.
         """
         self._watches.set(owner, quantities, singular_values)
-        if self._watches.all != self._watched:
-            self._watched = self._watches.all
-            self._bridge.post(self._watched)
+        self._orders.watch(self._watches.all)
 
     def watch_again(self) -> None:
         """The same as before, though a formula by the same name may be another one now."""
-        self._bridge.post(self._watched)
+        self._orders.watch_again()
 
     # ------------------------------------------------------------------------------------------ choices
 
@@ -338,25 +316,19 @@ class Document(QObject):
             return
         names = set(changes)
         self._announce("Choose", drawn_parameters(self.session, changes))
-        for command, fields in REFUSABLE.items():
-            if names & fields:
-                self._before[command] = {name: getattr(self.session, name) for name in fields}
+        self._earlier.keep(self.session, changes)
         self.session = session
         if names & PROBLEM_FIELDS:
             self.send_problem()
         if names & SOLVER_FIELDS:
-            self._bridge.post(solver_command(session))
+            self._orders.solver(session)
         if names & START_FIELDS and self.mesh is not None:
             self._make_start()
         self.session_changed.emit()
 
     def send_problem(self) -> None:
         """Tell the engine the distortion once more: what its id means may have changed."""
-        self._bridge.post(self._problem(self.session))
-
-    def _problem(self, session: Session) -> SetProblem:
-        self._problem_serial += 1
-        return problem_command(session, self._problem_serial)
+        self._orders.problem(self.session)
 
     # ------------------------------------------------------------------------------------------ running
 
@@ -368,9 +340,8 @@ class Document(QObject):
     def _run(self) -> None:
         if self.mesh is None:
             return
-        session = self.session
         self.wants_to_run, self._has_finished = True, False
-        self._bridge.post(Run(session.iterations, session.tolerance, session.time_limit))
+        self._orders.run(self.session)
         self.session_changed.emit()
 
     def pause(self) -> None:
@@ -399,10 +370,7 @@ class Document(QObject):
             self._make_start()
 
     def _make_start(self) -> None:
-        session = self.session
-        self._bridge.post(
-            Reset(session.initializer, dict(session.initializer_parameters), session.start_file, session.match_area)
-        )
+        self._orders.start(self.session)
         self.history_restarted.emit()
         if self.wants_to_run:
             self._run()
@@ -449,21 +417,10 @@ class Document(QObject):
         self.anchors_changed.emit()
 
     def _send_anchors(self, dragging: bool, at: float | None = None) -> None:
-        self.anchor_serial += 1
-        dimension = 3 if self.kind == "volume" else 2
-        vertices = self.anchors.vertices
+        self._orders.anchor_serial += 1
         if at is not None:
             self.drag_sent.emit(self.anchor_serial, at)
-        self._bridge.post(
-            SetAnchors(
-                vertices,
-                self.anchors.target_array(dimension),
-                np.full(len(vertices), np.inf),
-                serial=self.anchor_serial,
-                dragging=dragging,
-                groups=self.anchors.group_numbers,
-            )
-        )
+        self._orders.anchors(self.anchors, 3 if self.kind == "volume" else 2, dragging)
 
     @property
     def selected_anchors(self) -> Integers:

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from workbench.app.document import PROBLEM_FIELDS, SOLVER_FIELDS, Document
+from workbench.app.choices import PROBLEM_FIELDS, SOLVER_FIELDS
+from workbench.app.document import Document
 from workbench.app.history import History
 from workbench.app.panels.distortion_box import title_of
 from workbench.session.session import Session

@@ -1,0 +1,74 @@
+"""What the document tells the engine, numbered so that an answer can be told from one to an earlier order."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from workbench.app.anchor_set import AnchorSet
+from workbench.app.engine_bridge import EngineBridge
+from workbench.core.arrays import Floats
+from workbench.engine.messages import Reset, Run, SetAnchors, Watch
+from workbench.engine.session_commands import problem_command, solver_command, take_up
+from workbench.session.session import Session
+
+
+class Orders:
+    """Turns choices into commands and posts them; the newest serials are kept here."""
+
+    def __init__(self, bridge: EngineBridge) -> None:
+        self._bridge = bridge
+        self.problem_serial = 0
+        self.anchor_serial = 0
+        self._watched = Watch()
+
+    def problem(self, session: Session) -> None:
+        self.problem_serial += 1
+        self._bridge.post(problem_command(session, self.problem_serial))
+
+    def solver(self, session: Session) -> None:
+        self._bridge.post(solver_command(session))
+
+    def choices(self, session: Session) -> None:
+        """Problem and solver, ahead of a mesh."""
+        self.problem(session)
+        self.solver(session)
+
+    def choices_unheard(self) -> None:
+        """The default ones ahead of a mesh; nobody need hear that the map which goes does not suit them."""
+        self.choices(Session())
+        self.problem_serial += 1
+
+    def anchors(self, anchors: AnchorSet, dimension: int, dragging: bool) -> None:
+        self._bridge.post(
+            SetAnchors(
+                anchors.vertices,
+                anchors.target_array(dimension),
+                np.full(len(anchors), np.inf),
+                serial=self.anchor_serial,
+                dragging=dragging,
+                groups=anchors.group_numbers,
+            )
+        )
+
+    def number_anew(self) -> None:
+        """What is under way answers something else from now on."""
+        self.problem_serial, self.anchor_serial = self.problem_serial + 1, self.anchor_serial + 1
+
+    def take_up(self, session: Session, positions: Floats, generation: int) -> None:
+        """Choices, anchors and map at once, under the present numbers."""
+        self._bridge.post(take_up(session, positions, generation, self.anchor_serial, self.problem_serial))
+
+    def start(self, session: Session) -> None:
+        parameters = dict(session.initializer_parameters)
+        self._bridge.post(Reset(session.initializer, parameters, session.start_file, session.match_area))
+
+    def run(self, session: Session) -> None:
+        self._bridge.post(Run(session.iterations, session.tolerance, session.time_limit))
+
+    def watch(self, wanted: Watch) -> None:
+        if wanted != self._watched:
+            self._watched = wanted
+            self.watch_again()
+
+    def watch_again(self) -> None:
+        self._bridge.post(self._watched)
