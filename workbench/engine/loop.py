@@ -14,7 +14,6 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
-from workbench.core.facets import facet_table, neighbouring_simplices
 from workbench.core.guarded_step import checked, guarded_step
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
@@ -33,12 +32,10 @@ from workbench.engine.messages import (
     Dissected,
     Failure,
     Load,
-    Loaded,
     MapReport,
     Pause,
     Progress,
     Quit,
-    Refused,
     Report,
     Reset,
     Restore,
@@ -50,6 +47,8 @@ from workbench.engine.messages import (
     TakeMap,
     TakeUp,
 )
+from workbench.engine.reports import loaded_report, refusal
+from workbench.engine.run_budget import RunBudget
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
 
 HAND_RESTS = 0.12
@@ -88,11 +87,7 @@ class EngineLoop:
         self._solver: Solver | None = None
         self._problem: Problem | None = None
         self._state: State | None = None
-        self._running = False
-        self._steps_left = 0
-        self._limits = Run()
-        self._run_iterations = 0
-        self._run_begin = 0.0
+        self._budget = RunBudget()
         self._seconds = 0.0
         self._rows: list[HistoryRow] = []
         self._number = 0
@@ -107,17 +102,9 @@ class EngineLoop:
         try:
             self._dispatch(command)
         except WorkbenchError as error:
-            self._publish(self._refusal(command, error))
+            self._publish(refusal(command, error, self._generation, self._choices))
         except (Exception, SystemExit) as error:
             self._fail(f"{type(command).__name__} failed: {type(error).__name__}: {error}", traceback.format_exc())
-
-    def _refusal(self, command: Command, error: WorkbenchError) -> Refused:
-        kept, serial = (self._choices, command.serial) if isinstance(command, SetProblem) else (None, 0)
-        name = type(command).__name__
-        return Refused(self._generation_of(command), name, error.sentence, error.fixes, _lines_of(error), kept, serial)
-
-    def _generation_of(self, command: Command) -> int:
-        return command.generation if isinstance(command, Load) else self._generation
 
     def _dispatch(self, command: Command) -> None:
         if isinstance(command, Load):
@@ -139,15 +126,15 @@ class EngineLoop:
         elif isinstance(command, TakeUp):
             self._take_up_all(command)
         elif isinstance(command, Run):
-            self._limits, self._running, self._steps_left = command, True, 0
+            self._budget.run(command)
             self._begin_run()
             if not self.is_active and self._state is not None:
                 self.publish_map()  # it cannot run, and the status says why
         elif isinstance(command, Pause):
-            self._running, self._steps_left = False, 0
+            self._budget.rest()
             self.publish_map()
         elif isinstance(command, Step):
-            self._running, self._steps_left = False, self._steps_left + command.count
+            self._budget.step(command.count)
             self._begin_run()
         elif isinstance(command, Dissect):
             self._dissect()
@@ -178,22 +165,10 @@ class EngineLoop:
             self._reset = Reset(match_area=self._reset.match_area)
         self._generation = command.generation
         self._mesh, self._kind, self._file_start = opened.mesh, opened.kind, opened.start
-        self._running, self._steps_left, self._anchors = False, 0, None
+        self._budget.rest()
+        self._anchors = None
         self._problem, self._state, self._boundary_positions = problem, None, None
-        self._publish(
-            Loaded(
-                generation=command.generation,
-                mesh=opened.mesh,
-                kind=opened.kind,
-                lines=opened.lines,
-                cut_edges=opened.cut_edges,
-                source=command.source,
-                fixes=command.fixes,
-                anchor_vertices=opened.anchor_vertices,
-                anchor_targets=opened.anchor_targets,
-                neighbours=neighbouring_simplices(facet_table(opened.mesh.simplices)) if opened.kind == "volume" else None,
-            )
-        )
+        self._publish(loaded_report(command, opened))
         self._make_start(self._reset)
 
     def _restore(self, command: Restore) -> None:
@@ -232,7 +207,8 @@ class EngineLoop:
         self._configured_solver(command.solver, problem)
         held.anchors.check(problem.mesh.vertex_count, problem.dimension)
         self._choices, self._solver_choice, self._anchors, self._problem = choices, command.solver, held, problem
-        self._running, self._steps_left, self._boundary_positions, self._seconds = False, 0, None, 0.0
+        self._budget.rest()
+        self._boundary_positions, self._seconds = None, 0.0
         self._start_from(command.positions, command.iteration)
 
     def _start_from(self, start: Floats, iteration: int, origin: str = "map") -> None:
@@ -353,10 +329,10 @@ class EngineLoop:
             self.publish_map()
 
     def _begin_run(self) -> None:
-        self._run_iterations, self._run_begin = 0, self._seconds
+        self._budget.begin(self._seconds)
         if self._state is not None:
             if self._problem is not None:
-                self._problem = self._problem.with_criteria(Criteria(self._limits.tolerance))
+                self._problem = self._problem.with_criteria(Criteria(self._budget.limits.tolerance))
             if self._state.status not in (Status.RUNNING, Status.INVERTED_START, Status.NONFINITE):
                 # Asked again: what stopped it then (a limit, a looser tolerance) may not stop it now.
                 self._state = replace(self._state, status=Status.RUNNING, previous_energy=float("nan"))
@@ -367,12 +343,11 @@ class EngineLoop:
     @property
     def is_active(self) -> bool:
         """Whether `advance` has something to do."""
-        wants = self._running or self._steps_left > 0
-        return wants and self._state is not None and self._state.status is Status.RUNNING
+        return self._budget.wants_more and self._state is not None and self._state.status is Status.RUNNING
 
     @property
     def phase(self) -> str:
-        if self._state is None or not (self._running or self._steps_left):
+        if self._state is None or not self._budget.wants_more:
             return "idle"
         if self._state.status is not Status.RUNNING:
             return "finished"
@@ -381,7 +356,7 @@ class EngineLoop:
     @property
     def _hand_moves(self) -> bool:
         """Whether the next event of a hand is to be expected within moments, or its last one is still to be answered."""
-        return self._running and time.perf_counter() < self._hand_until
+        return self._budget.is_running and time.perf_counter() < self._hand_until
 
     @property
     def _is_dragging(self) -> bool:
@@ -402,7 +377,7 @@ class EngineLoop:
             problem = self._problem
             following = self._step(problem, state, solver, by_hand) if state.status is Status.RUNNING else state
         except Exception as error:
-            self._running, self._steps_left = False, 0
+            self._budget.rest()
             step = f"{solver.label} failed in step {state.iteration + 1}: {type(error).__name__}: {error}"
             self._fail(error.sentence if isinstance(error, WorkbenchError) else step, traceback.format_exc())
             self.publish_map()
@@ -422,7 +397,7 @@ class EngineLoop:
         """Forget what only this process knows, and tell from where the solver goes on."""
         assert self._problem is not None
         self._problem, self._state = state_without_past(solver, self._problem, self._current())
-        choices = self._choices, self._solver_choice, self._anchors, self._limits.tolerance
+        choices = self._choices, self._solver_choice, self._anchors, self._budget.limits.tolerance
         self._publish(self._legs.open(self._generation, self._state, choices))
         return self._state
 
@@ -449,18 +424,9 @@ class EngineLoop:
         moving = self._hand_moves and following.status is Status.RUNNING
         status = Status.RUNNING if moving else solver.terminate(problem, following)
         if following.iteration > state.iteration:
-            self._run_iterations += 1
-            if self._steps_left:
-                self._steps_left -= 1
+            self._budget.count()
             self._rows.append(history_row(problem, following, self._seconds))
-        if status is Status.RUNNING and self._running:
-            if self._run_iterations >= self._limits.iterations:
-                status = Status.MAX_ITERATIONS
-            elif self._seconds - self._run_begin >= self._limits.time_limit:
-                status = Status.TIME_LIMIT
-        self._state = replace(following, status=status)
-        if status is not Status.RUNNING:
-            self._steps_left = 0
+        self._state = replace(following, status=self._budget.status(status, self._seconds))
         self.publish_map()
 
     # ------------------------------------------------------------------------------------------ reports
@@ -493,8 +459,3 @@ class EngineLoop:
 
     def _fail(self, sentence: str, details: str) -> None:
         self._publish(Failure(self._generation, sentence, details))
-
-
-def _lines_of(error: WorkbenchError) -> tuple[str, ...]:
-    """The report on load that an error of `open_source` carries, where it could read the mesh."""
-    return tuple(getattr(error, "lines", ()))
