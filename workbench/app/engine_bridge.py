@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
+from workbench.engine.head_start import BegunEngine
 from workbench.engine.messages import (
     Command,
     Dissected,
@@ -35,11 +36,11 @@ class Worker(Protocol):
 WorkerMaker = Callable[[Callable[[], None]], Worker]
 
 
-def engine_worker(wake: Callable[[], None]) -> Worker:
-    """The real one: solving runs in a process of its own."""
+def engine_worker(wake: Callable[[], None], begun: BegunEngine | None = None) -> Worker:
+    """The real one: solving runs in a process of its own, which may have begun already."""
     from workbench.engine.worker import EngineWorker  # late: it is not needed for the first frame
 
-    return EngineWorker(wake, gives_way=True)
+    return EngineWorker(wake, gives_way=True, begun=begun)
 
 
 class ReportBridge(QObject):

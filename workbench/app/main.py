@@ -26,7 +26,11 @@ def run_window(
     theme : str              system, light or dark; the user's last choice where it is empty
     settings_file : path     settings of its own instead of the user's
     """
+    from workbench.engine.head_start import begin_engine
+
+    begun = begin_engine(gives_way=True)  # it imports its own while this process does
     application = make_application()
+    from workbench.app.engine_bridge import engine_worker
     from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
     from workbench.app.settings import Settings
@@ -34,7 +38,7 @@ def run_window(
 
     settings = Settings(settings_file)
     switch = ThemeSwitch(application, theme if theme in ("light", "dark") else settings.theme)
-    window = MainWindow(switch, settings)
+    window = MainWindow(switch, settings, lambda wake: engine_worker(wake, begun))
     window.show()
     window.start(source or "")
     window.autosave.start()

@@ -11,11 +11,10 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection
 from typing import Any, ClassVar
 
-from workbench.engine.child import WithoutMainModule
 from workbench.engine.command_box import CommandBox
 from workbench.engine.command_sender import CommandSender
+from workbench.engine.head_start import begin_child_process
 from workbench.engine.messages import Command, Failure, Quit, Report
-from workbench.engine.priority import run_child
 
 QUIT_PATIENCE = 0.5
 """Seconds that a child has to leave by itself when its owner is closed."""
@@ -119,15 +118,12 @@ class ProcessOwner(ABC):
 
     def _begin_process(self, body: Callable[..., None], *arguments: Any) -> None:
         """Spawn a child that runs `body(connection, *arguments)`."""
-        context = multiprocessing.get_context("spawn")
-        self._connection, theirs = context.Pipe(duplex=True)
-        with WithoutMainModule():
-            self._process = context.Process(
-                target=run_child, args=(self._gives_way, body, theirs, *arguments), name=self.name, daemon=True
-            )
-            self._process.start()
-        theirs.close()
-        self._sender = CommandSender(self._connection)
+        self._adopt(*begin_child_process(self.name, self._gives_way, body, *arguments))
+
+    def _adopt(self, process: Any, connection: Connection) -> None:
+        """Own a child that was begun."""
+        self._process, self._connection = process, connection
+        self._sender = CommandSender(connection)
 
     def _end_process(self, *, kill: bool = False) -> None:
         process, self._process = self._process, None

@@ -16,12 +16,13 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import build_elements
 from workbench.engine.child import WithoutMainModule, exit_words
 from workbench.engine.corrector import SMALLEST, corrector_main
+from workbench.engine.head_start import NAME, BegunEngine, begin_engine
 from workbench.engine.live import LiveColours
-from workbench.engine.loop import MapReport
 from workbench.engine.messages import (
     Command,
     Load,
     Loaded,
+    MapReport,
     Pause,
     Refused,
     Report,
@@ -38,7 +39,6 @@ from workbench.engine.messages import (
     Watch,
 )
 from workbench.engine.priority import run_child
-from workbench.engine.process import engine_main
 from workbench.engine.process_owner import ProcessOwner
 from workbench.engine.shared_positions import PositionRing
 
@@ -51,7 +51,7 @@ STEADY = 10.0
 class EngineWorker(ProcessOwner):
     """Runs the engine process and keeps it alive."""
 
-    name = "workbench-engine"
+    name = NAME
     trouble = "The engine's owner failed: {}. Restart the program."
 
     def __init__(
@@ -62,13 +62,15 @@ class EngineWorker(ProcessOwner):
         on_snapshot: Callable[[Snapshot], None] | None = None,
         with_fields: bool = True,
         gives_way: bool = False,
+        begun: BegunEngine | None = None,
     ) -> None:
-        """As in `ProcessOwner`.
+        """As in `ProcessOwner`; `begun` is a first process with these settings that runs already.
 
         `on_snapshot` (tests, benchmarks) is told every map that is read, on the worker's thread; `with_fields` false leaves
         out all that is watched.
         """
         super().__init__(wake, threads=threads, gives_way=gives_way)
+        self._begun = begun
         self._on_snapshot = on_snapshot
         self._with_fields = with_fields
         self._snapshot: Snapshot | None = None
@@ -276,10 +278,10 @@ class EngineWorker(ProcessOwner):
     # ---------------------------------------------------------------------------------------- the child
 
     def _spawn(self) -> None:
-        engines, self._correctors_end = multiprocessing.get_context("spawn").Pipe(duplex=True)
-        self._begin_process(engine_main, engines, time.time(), self._threads)
-        engines.close()
-        self._spawned_at = time.monotonic()
+        begun, self._begun = self._begun, None
+        begun = begun or begin_engine(threads=self._threads, gives_way=self._gives_way)
+        self._correctors_end, self._spawned_at = begun.corrector, begun.at
+        self._adopt(begun.process, begun.connection)
 
     def _start_corrector(self) -> None:
         """The second process, once a mesh is large enough for it to help; a restart of the engine ends it."""

@@ -1,0 +1,46 @@
+"""The engine process, begun before the program has imported what it needs to talk to it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from typing import Any
+
+from workbench.engine.child import WithoutMainModule
+from workbench.engine.priority import run_child
+
+ENGINE = "workbench.engine.process:engine_main"
+NAME = "workbench-engine"
+
+
+@dataclass(frozen=True)
+class BegunEngine:
+    """A process that imports and compiles while its owner is still being made; `corrector` is the end for its helper."""
+
+    process: Any
+    connection: Connection
+    corrector: Connection
+    at: float
+    """`time.monotonic` when it was begun."""
+
+
+def begin_child_process(name: str, gives_way: bool, body: Callable[..., None] | str, *arguments: Any) -> tuple[Any, Connection]:
+    """A spawned process that runs `body(connection, *arguments)` (see `run_child`), and our end of the connection."""
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe(duplex=True)
+    process = context.Process(target=run_child, args=(gives_way, body, theirs, *arguments), name=name, daemon=True)
+    with WithoutMainModule():
+        process.start()
+    theirs.close()
+    return process, ours
+
+
+def begin_engine(*, threads: int = 0, gives_way: bool = False) -> BegunEngine:
+    """Spawn the engine; see `EngineWorker` for the arguments."""
+    engines, correctors = multiprocessing.get_context("spawn").Pipe(duplex=True)
+    process, connection = begin_child_process(NAME, gives_way, ENGINE, engines, time.time(), threads)
+    engines.close()
+    return BegunEngine(process, connection, correctors, time.monotonic())
