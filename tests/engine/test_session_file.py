@@ -49,14 +49,17 @@ def records(draw: st.DrawFn) -> SessionRecord:
         anchor_targets=each(st.tuples(FINITE, FINITE)),
         anchor_weights=each(st.one_of(st.just(math.inf), st.floats(0.001, 1e6))),
         anchor_groups=each(st.integers(-1, 5)),
+        anchors_off=frozenset(draw(st.lists(st.sampled_from(vertices)))) if vertices else frozenset(),
         iterations=draw(st.integers(0, 10**6)),
         time_limit=draw(st.one_of(st.just(math.inf), st.floats(0, 1e6))),
     )
     positions = draw(st.one_of(st.none(), st.just(np.arange(10.0).reshape(5, 2) / 7)))
     first = Leg(
-        replace(session, solver="slim", anchor_vertices=(), anchor_targets=(), anchor_weights=(), anchor_groups=()), "start"
-    )
-    legs = (replace(first, iterations=3), Leg(session, "previous", None, 7)) if draw(st.booleans()) else ()
+        replace(
+            session.in_force, solver="slim", anchor_vertices=(), anchor_targets=(), anchor_weights=(), anchor_groups=()
+        ), "start"
+    )  # fmt: skip
+    legs = (replace(first, iterations=3), Leg(session.in_force, "previous", None, 7)) if draw(st.booleans()) else ()
     return SessionRecord(session, draw(st.sampled_from(["", "0" * 64])), positions, legs, draw(st.one_of(st.none(), FINITE)))
 
 
@@ -138,6 +141,8 @@ HOSTILE_VALUES: list[dict[str, Any]] = [
     {"anchors": [[0, [0, 0, 0, 0]]]},
     {"anchors": [[0, [0, 0]], [1, [0, 0, 0]]]},
     {"anchors": [[0, [0, 0]], [0, [1, 1]]]},
+    {"anchors": [[0, [0, 0], None, -1, True]]},
+    {"anchors": [[0, [0, 0], "off"]]},
     {"anchors": [[0, [0, 0], -3]]},
     {"anchors": [[0, [0, 0], None, "g"]]},
     {"version": 99},

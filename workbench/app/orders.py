@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
 from workbench.core.arrays import Floats
@@ -39,14 +37,15 @@ class Orders:
         self.problem_serial += 1
 
     def anchors(self, anchors: AnchorSet, dimension: int, dragging: bool) -> None:
+        held = anchors.in_force
         self._bridge.post(
             SetAnchors(
-                anchors.vertices,
-                anchors.target_array(dimension),
-                np.full(len(anchors), np.inf),
+                held.vertices,
+                held.target_array(dimension),
+                held.weight_array,
                 serial=self.anchor_serial,
                 dragging=dragging,
-                groups=anchors.group_numbers,
+                groups=held.group_numbers,
             )
         )
 

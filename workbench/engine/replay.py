@@ -60,7 +60,8 @@ def solver_of(session: Session, problem: Problem) -> Solver:
 
 
 def anchors_of(session: Session, vertex_count: int, dimension: int) -> Anchors:
-    """The anchors of a session for a mesh. Raises `WorkbenchError` where they do not fit it."""
+    """The anchors of a session that are in force, for a mesh. Raises `WorkbenchError` where they do not fit it."""
+    session = session.in_force
     if not session.anchor_vertices:
         return Anchors.none(dimension)
     anchors = Anchors(

@@ -40,7 +40,8 @@ def anchor_fields(held: SetAnchors) -> dict[str, Any]:
 
 
 def anchors_command(session: Session, dimension: int, serial: int = 0) -> SetAnchors:
-    """The anchors of a session for the engine."""
+    """The anchors of a session that are in force, for the engine."""
+    session = session.in_force
     count = len(session.anchor_vertices)
     return SetAnchors(
         np.array(session.anchor_vertices, dtype=np.int64),

@@ -16,6 +16,8 @@ MOST_ANCHORS = 250_000
 MOST_PARAMETERS = 200
 MOST_ITERATIONS = 10**9
 SHOWN = 60
+OFF = "off"
+"""The last entry in the row of an anchor that is kept and holds nothing."""
 
 Check = Callable[[str, Any], Any]
 """(what it is called, value) -> the value as a session has it. Raises `WorkbenchError`."""
@@ -117,16 +119,17 @@ def digest(what: str, value: Any) -> str:
 
 
 def anchors(what: str, value: Any) -> dict[str, Any]:
-    """The fields of a session that `[vertex, [x, y], weight, group]` of every anchor make.
+    """The fields of a session that `[vertex, [x, y], weight, group, "off"]` of every anchor make.
 
-    The weight is null for a hard one; it and the group may be left out.
+    The weight is null for a hard one, the group -1 for one that moves alone; what stands at the end may be left out.
     """
     vertices: list[int] = []
     targets: list[tuple[float, ...]] = []
     weights: list[float] = []
     groups: list[int] = []
+    off: set[int] = set()
     for row in rows(what, value, MOST_ANCHORS):
-        if not isinstance(row, list) or not 2 <= len(row) <= 4:
+        if not isinstance(row, list) or not 2 <= len(row) <= 5:
             raise refuse(f"A row of {what}", row, "[vertex, [x, y], weight, group]")
         vertices.append(whole(f"A vertex of {what}", row[0], 0, 2**62))
         target = rows(f"A target of {what}", row[1], 3)
@@ -136,6 +139,10 @@ def anchors(what: str, value: Any) -> dict[str, Any]:
         soft = row[2] if len(row) > 2 else None
         weights.append(math.inf if soft is None else amount(f"A weight of {what}", soft))
         groups.append(whole(f"A group of {what}", row[3], -1, 2**62) if len(row) > 3 else -1)
+        if len(row) > 4:
+            if row[4] != OFF:
+                raise refuse(f"The last entry of a row of {what}", row[4], f"{OFF!r}, or not there")
+            off.add(vertices[-1])
     if len(set(vertices)) != len(vertices):
         raise WorkbenchError(f"{what} names a vertex twice; one target a vertex is needed.")
     return {
@@ -143,6 +150,7 @@ def anchors(what: str, value: Any) -> dict[str, Any]:
         "anchor_targets": tuple(targets),
         "anchor_weights": tuple(weights),
         "anchor_groups": tuple(groups),
+        "anchors_off": frozenset(off),
     }
 
 

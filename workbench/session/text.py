@@ -13,11 +13,10 @@ from workbench.core.errors import WorkbenchError
 from workbench.session import schema
 from workbench.session.journal import LONGEST, Leg, Origin
 from workbench.session.record import SessionRecord
-from workbench.session.session import Session
+from workbench.session.session import ANCHORS, Session
 
 FORMAT = "distortion-workbench session"
 VERSION = 1
-ANCHORS = ("anchor_vertices", "anchor_targets", "anchor_weights", "anchor_groups")
 LEG_CHOICES = (
     "distortion", "distortion_parameters", "solver", "solver_parameters", "fixed_boundary", "allow_inversions", "tolerance",
 )  # fmt: skip
@@ -64,22 +63,31 @@ def _plain(value: Any) -> Any:
 
 
 def anchor_rows(session: Session) -> list[list[Any]]:
-    """The anchors of a session as rows `[vertex, target, weight, group]`; what says nothing is left out."""
+    """The anchors of a session as rows `[vertex, target, weight, group, "off"]`; what says nothing is left out."""
     count = len(session.anchor_vertices)
     weights = session.anchor_weights or (math.inf,) * count
     groups = session.anchor_groups or (-1,) * count
     rows: list[list[Any]] = []
     for vertex, target, weight, group in zip(session.anchor_vertices, session.anchor_targets, weights, groups, strict=True):
         row = [vertex, list(target), None if math.isinf(weight) else weight, group]
-        rows.append(row if group >= 0 else row[:3] if row[2] is not None else row[:2])
+        if vertex in session.anchors_off:
+            row.append(schema.OFF)
+        rows.append(row if group >= 0 or row[-1] == schema.OFF else row[:3] if row[2] is not None else row[:2])
     return rows
+
+
+def anchors_agree(one: Session, other: Session) -> bool:
+    """Whether the same anchors are in force."""
+    first, second = one.in_force, other.in_force
+    return all(getattr(first, name) == getattr(second, name) for name in ANCHORS)
 
 
 def _leg_object(leg: Leg, session: Session, index: int, arrays: dict[str, Floats]) -> dict[str, Any]:
     plain: dict[str, Any] = {"from": leg.origin, "iterations": leg.iterations}
     plain |= differing(leg.choices, session, LEG_CHOICES)
-    if any(getattr(leg.choices, name) != getattr(session, name) for name in ANCHORS):
-        plain["anchors"] = anchor_rows(leg.choices)
+    choices = leg.choices.in_force
+    if not anchors_agree(choices, session):
+        plain["anchors"] = anchor_rows(choices)
     if leg.positions is not None and leg.origin != "previous":
         arrays[f"leg-{index}"] = leg.positions
     return plain
@@ -169,7 +177,7 @@ def _leg_of(plain: Any, session: Session, index: int, arrays: Mapping[str, Float
     if origin == "previous" and positions is not None:
         raise WorkbenchError(f"{what} goes on from the one before, and the file has a map for it.")
     changes = {name: schema.CHOICES[name](f"{what}: {name}", plain[name]) for name in LEG_CHOICES if name in plain}
-    choices = replace(session, **changes, **_anchors(plain))
+    choices = replace(session.in_force, **changes, **_anchors(plain)).in_force
     return Leg(choices, origin, positions, schema.whole(f"{what}: iterations", plain.get("iterations")))  # type: ignore[arg-type]
 
 
@@ -192,7 +200,7 @@ def _is_short(value: Any) -> bool:
     if isinstance(value, dict):
         return len(value) <= 3 and not any(isinstance(item, dict | list) for item in value.values())
     return (
-        len(value) <= 4
+        len(value) <= 5
         and all(not isinstance(x, dict) and (not isinstance(x, list) or _is_short(x)) for x in value)
         and (not value or not isinstance(value[0], list))
     )

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Any
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.core.arrays import Floats
-from workbench.session.session import Session
-from workbench.session.text import ANCHORS
+from workbench.session.session import ANCHORS, Session
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,28 +23,33 @@ class Wanted:
 
 def with_anchors(session: Session, anchors: AnchorSet) -> Session:
     """The choices together with these anchors."""
-    count = len(anchors)
     return replace(
         session,
         anchor_vertices=tuple(anchors.targets),
         anchor_targets=tuple(anchors.targets.values()),
-        anchor_weights=(math.inf,) * count,
+        anchor_weights=tuple(anchors.weight_array.tolist()),
         anchor_groups=tuple(anchors.group_numbers.tolist()),
+        anchors_off=anchors.off,
     )
 
 
 def without_anchors(session: Session) -> Session:
     """The choices alone."""
     nothing: dict[str, Any] = dict.fromkeys(ANCHORS, ())
-    return replace(session, **nothing)
+    return replace(session, **nothing, anchors_off=frozenset())
 
 
 def anchors_in(session: Session) -> AnchorSet:
     """The anchors of a session as the window holds them."""
     vertices = session.anchor_vertices
     groups = zip(vertices, session.anchor_groups or (-1,) * len(vertices), strict=True)
-    targets = dict(zip(vertices, session.anchor_targets, strict=True))
-    return AnchorSet(targets, {vertex: group for vertex, group in groups if group >= 0})
+    weights = zip(vertices, session.anchor_weights or (inf,) * len(vertices), strict=True)
+    return AnchorSet(
+        dict(zip(vertices, session.anchor_targets, strict=True)),
+        {vertex: group for vertex, group in groups if group >= 0},
+        {vertex: weight for vertex, weight in weights if weight < inf},
+        session.anchors_off,
+    )
 
 
 def drawn_parameters(session: Session, changes: Mapping[str, Any]) -> str:
@@ -68,6 +72,12 @@ def name_of_anchor_change(before: AnchorSet, after: AnchorSet) -> str:
     elif before.targets != after.targets:
         verb = "Move"
         count = sum(before.targets[v] != target for v, target in after.targets.items())
+    elif before.off != after.off:
+        gone, back = len(after.off - before.off), len(before.off - after.off)
+        verb, count = ("Switch off", gone) if gone >= back else ("Switch on", back)
+    elif before.weights != after.weights:
+        changed = [v for v in after.targets if before.weights.get(v) != after.weights.get(v)]
+        verb, count = ("Weigh" if any(v in after.weights for v in changed) else "Harden"), len(changed)
     else:
         return "Group anchors"
     return f"{verb} anchor" if count == 1 else f"{verb} {count} anchors"

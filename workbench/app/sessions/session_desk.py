@@ -12,12 +12,11 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.background import Background
 from workbench.app.document import Document
 from workbench.core.distortion import Distortion
-from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry
 from workbench.engine.session_file import read_session, source_digest, source_trouble, write_session
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
-from workbench.session.text import ANCHORS, LEG_CHOICES
+from workbench.session.text import LEG_CHOICES, anchors_agree
 
 FILTERS = "Sessions (*.dwb);;Sessions without their maps (*.json)"
 
@@ -181,9 +180,7 @@ def check_choices(session: Session) -> None:
     registry().solver(session.solver).configured(dict(session.solver_parameters))
     if session.initializer:
         registry().initializer(session.initializer).configured(dict(session.initializer_parameters))
-    if any(weight < float("inf") for weight in session.anchor_weights):
-        raise WorkbenchError("Its anchors have weights, and those of the window are hard; `workbench run` repeats it.")
 
 
 def _agree(one: Session, other: Session) -> bool:
-    return all(getattr(one, name) == getattr(other, name) for name in (*LEG_CHOICES, *ANCHORS))
+    return anchors_agree(one, other) and all(getattr(one, name) == getattr(other, name) for name in LEG_CHOICES)
