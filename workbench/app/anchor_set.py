@@ -125,14 +125,11 @@ class AnchorSet:
         alone = set(vertices.tolist())
         return replace(self, groups={v: g for v, g in self.groups.items() if v not in alone})
 
-    def group_of(self, vertex: int) -> Integers:
-        """(k,) int64: the anchors that move with a vertex, itself among them; none where it is no anchor."""
-        if vertex not in self.targets:
-            return np.empty(0, np.int64)
-        number = self.groups.get(vertex)
-        if number is None:
-            return np.array([vertex], dtype=np.int64)
-        return np.array([v for v in self.targets if self.groups.get(v) == number], dtype=np.int64)
+    def together_with(self, vertices: Iterable[int]) -> Integers:
+        """(k,) int64: anchors among `vertices` and all that move with them, in the order in which they were set."""
+        chosen = {v for v in vertices if v in self.targets}
+        numbers = {self.groups[v] for v in chosen if v in self.groups}
+        return np.array([v for v in self.targets if v in chosen or self.groups.get(v) in numbers], dtype=np.int64)
 
     # ------------------------------------------------------------------------------------------ arrays
 

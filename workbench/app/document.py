@@ -73,7 +73,7 @@ class Document(QObject):
         self.loaded: Loaded | None = None
         self.snapshot: Snapshot | None = None
         self.anchors = AnchorSet.none()
-        self.selected = -1
+        self.selection: tuple[int, ...] = ()
         self.wants_to_run = False
         self.is_held = self._is_told = False
         self.opening_source = ""
@@ -178,8 +178,7 @@ class Document(QObject):
         """Hold these choices and anchors; the engine knows them, or is told by whoever calls."""
         self.session, self.anchors = without_anchors(session), anchors_in(session)
         self.wants_to_run = self.is_held = self._is_told = False
-        if self.selected not in self.anchors:
-            self.select(-1)
+        self.select_all(self.selection)
         self.session_changed.emit()
         self.anchors_changed.emit()
 
@@ -219,7 +218,7 @@ class Document(QObject):
         self.loaded = report
         self.snapshot = None
         self.wants_to_run = self.is_held = self._is_told = False
-        self.selected = -1
+        self.selection = ()
         self.anchors = AnchorSet.none()
         self._send_anchors(False)
         self._is_opening = True
@@ -411,8 +410,7 @@ class Document(QObject):
 
     def _put_anchors(self, anchors: AnchorSet, dragging: bool = False, at: float | None = None) -> None:
         self.anchors = anchors
-        if self.selected >= 0 and self.selected not in anchors:
-            self.select(-1)
+        self.select_all(self.selection)
         self._send_anchors(dragging, at)
         self.anchors_changed.emit()
 
@@ -424,8 +422,13 @@ class Document(QObject):
 
     @property
     def selected_anchors(self) -> Integers:
-        """(k,) int64: the selected anchor and those that move with it."""
-        return self.anchors.group_of(self.selected)
+        """(k,) int64: the selected anchors and those that move with them."""
+        return self.anchors.together_with(self.selection)
+
+    @property
+    def selected(self) -> int:
+        """Vertex of the anchor that was selected last, -1 where none is."""
+        return self.selection[-1] if self.selection else -1
 
     def add_anchor(self, vertex: int) -> None:
         """Hold a vertex where it is now."""
@@ -452,6 +455,14 @@ class Document(QObject):
             self.set_anchors(self.anchors.joined(AnchorSet.at(vertices, self.positions)))
 
     def select(self, vertex: int) -> None:
-        if vertex != self.selected:
-            self.selected = vertex
+        """Select one anchor, or none (-1)."""
+        self._select((vertex,) if vertex >= 0 else ())
+
+    def select_all(self, vertices: Iterable[int]) -> None:
+        """Select several: those of `vertices` that are anchors."""
+        self._select(tuple(int(v) for v in vertices if v in self.anchors))
+
+    def _select(self, selection: tuple[int, ...]) -> None:
+        if selection != self.selection:
+            self.selection = selection
             self.selection_changed.emit()
