@@ -90,7 +90,7 @@ class Colouring(QObject):
 
     def paint(self, pane: ViewPane) -> None:
         """Bring the colours of a view in line with the newest map."""
-        snapshot, surface = self._document.snapshot, pane.view.surface
+        snapshot, surface = self._document.shown, pane.view.surface
         if snapshot is None or surface is None:
             return
         style = self._styles[pane]

@@ -59,6 +59,8 @@ class Document(QObject):
     anchors_changed = Signal()
     selection_changed = Signal()
     snapshot_taken = Signal()
+    shown_changed = Signal()
+    """Views have another map to show: the newest, or an earlier one while somebody looks back."""
     history_restarted = Signal()
     drag_sent = Signal(int, float)
     refused = Signal(object)
@@ -72,6 +74,7 @@ class Document(QObject):
         self.generation = 0
         self.loaded: Loaded | None = None
         self.snapshot: Snapshot | None = None
+        self._past: tuple[Snapshot, AnchorSet] | None = None
         self.anchors = AnchorSet.none()
         self.selection: tuple[int, ...] = ()
         self.wants_to_run = False
@@ -112,6 +115,22 @@ class Document(QObject):
     def anchor_serial(self) -> int:
         """The number of the newest anchors; a snapshot tells which it holds."""
         return self._orders.anchor_serial
+
+    @property
+    def shown(self) -> Snapshot | None:
+        """What views show: the newest map, or an earlier one. Whatever is done, is done to the newest."""
+        return self._past[0] if self._past is not None else self.snapshot
+
+    @property
+    def shown_anchors(self) -> AnchorSet:
+        return self._past[1] if self._past is not None else self.anchors
+
+    def look_back(self, snapshot: Snapshot | None, anchors: AnchorSet | None = None) -> None:
+        """Let views show an earlier map with its anchors; with None the newest, as it comes."""
+        before = self._past
+        self._past = None if snapshot is None else (snapshot, anchors or AnchorSet.none())
+        if self.shown is not None and (before, self._past) != (None, None):
+            self.shown_changed.emit()
 
     @property
     def complete_session(self) -> Session:
@@ -216,7 +235,7 @@ class Document(QObject):
         self.session = replace(self._attempt or self.session, fixes=report.fixes, **fresh)
         self.opening_source = ""
         self.loaded = report
-        self.snapshot = None
+        self.snapshot = self._past = None
         self.wants_to_run = self.is_held = self._is_told = False
         self.selection = ()
         self.anchors = AnchorSet.none()
@@ -259,6 +278,8 @@ class Document(QObject):
         self.snapshot = snapshot
         self._has_finished = snapshot.phase == "finished"
         self.snapshot_taken.emit()
+        if self._past is None:
+            self.shown_changed.emit()
         if self._is_opening:
             self._is_opening = False
             wanted, self._wanted = self._wanted, None
@@ -301,6 +322,11 @@ class Document(QObject):
         """
         self._watches.set(owner, quantities, singular_values)
         self._orders.watch(self._watches.all)
+
+    @property
+    def watched(self) -> Watch:
+        """What all want to see together."""
+        return self._watches.all
 
     def watch_again(self) -> None:
         """The same as before, though a formula by the same name may be another one now."""

@@ -241,8 +241,8 @@ class MainWindow(QMainWindow):
         self.turns.all_stale()
 
     def _draw_histogram(self) -> None:
-        if self.document.snapshot is not None:
-            self.histogram.show_snapshot(self.document.snapshot)
+        if self.document.shown is not None:
+            self.histogram.show_snapshot(self.document.shown)
 
     def _list_quantities(self) -> None:
         """The distortions that there are now, formulas of one's own among them."""

@@ -64,7 +64,7 @@ class Presenter(QObject):
         self.target.drawn.connect(turns.main_is_drawn)
         turns.add(self.source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
-        document.snapshot_taken.connect(self._show_snapshot)
+        document.shown_changed.connect(self._show_snapshot)
         document.history_restarted.connect(self._start_again)
         document.anchors_changed.connect(self._anchors_changed)
         document.selection_changed.connect(self._anchors_changed)
@@ -136,7 +136,7 @@ class Presenter(QObject):
     # ------------------------------------------------------------------------------------------ maps
 
     def _show_snapshot(self) -> None:
-        snapshot = self._document.snapshot
+        snapshot = self._document.shown
         assert snapshot is not None
         is_first = self._target_geometry is None
         geometry = self._target_geometry or self._begin_target(snapshot.positions)
@@ -209,8 +209,8 @@ class Presenter(QObject):
         return self.source.canvas.seconds
 
     def _draw_map(self, dock: ColourMapDock) -> None:
-        if self._document.snapshot is not None:
-            dock.show_snapshot(self._document.snapshot)
+        if self._document.shown is not None:
+            dock.show_snapshot(self._document.shown)
 
     # ------------------------------------------------------------------------------------------ marks
 
@@ -257,7 +257,7 @@ class Presenter(QObject):
         """Bring anchors, the hovered vertex and the limiting simplex of both layers up to date."""
         document = self._document
         mesh, positions = document.mesh, document.positions
-        anchors = document.anchors
+        anchors = document.shown_anchors
         for view in (self.source, self.target):
             scene = view.overlay.scene
             geometry = view.geometry_shown
@@ -281,7 +281,7 @@ class Presenter(QObject):
             if 0 <= self._hovered < geometry.vertex_count and not document.is_held:
                 scene.hovered = self._hovered
                 scene.hovered_point = geometry.points[self._hovered]
-            snapshot = document.snapshot
+            snapshot = document.shown
             if snapshot is not None and 0 <= snapshot.limiting_simplex < mesh.simplex_count:
                 scene.limiting = geometry.points[mesh.simplices[snapshot.limiting_simplex]]
                 scene.limiting_label = f"{mesh.simplex_noun()} {snapshot.limiting_simplex} limits the step"

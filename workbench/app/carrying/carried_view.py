@@ -55,7 +55,7 @@ class CarriedView(QObject):
         self.bar.dismissed.connect(self.let_go)
         self.bar.quantity_chosen.connect(self.show_quantity)
         document.opened.connect(self.let_go)
-        document.snapshot_taken.connect(self.show_map)
+        document.shown_changed.connect(self.show_map)
         document.session_changed.connect(self._follow)
 
     @property
@@ -150,10 +150,10 @@ class CarriedView(QObject):
 
     def show_map(self) -> None:
         """Bring the surface in line with the newest map; the source is drawn again when its turn comes."""
-        positions = self._document.positions
-        if self.surface is None or positions is None:
+        shown = self._document.shown
+        if self.surface is None or shown is None:
             return
-        moved = self.surface.at(positions)
+        moved = self.surface.at(shown.positions)
         values = self.values(moved)
         self.range.take(values)
         self.bar.legend.show_values(values)

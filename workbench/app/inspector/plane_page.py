@@ -167,8 +167,8 @@ class PlanePage(Page):
             self.draw_points()
 
     def draw_points(self) -> None:
-        """Take the simplices of the newest map."""
-        snapshot = self._document.snapshot
+        """Take the simplices of the map that is shown."""
+        snapshot = self._document.shown
         values = None if snapshot is None else snapshot.singular_values
         if snapshot is None or values is None or values.shape[1] != self.subject.dimension:
             self._places, self._inverted = np.empty((0, 2)), np.empty(0, bool)

@@ -68,19 +68,20 @@ class VolumeView(QObject):
     def faces(self) -> DrawnFaces:
         """What is drawn of the newest map; the same object while nothing else is to be seen."""
         if self.solid is not None:
-            snapshot = self._document.snapshot
+            snapshot = self._document.shown
             number = snapshot.number if snapshot is not None and self.look.follows_map else -1
             marked = self._brush.simplices if self.look.only_marked else None
             needed = (replace(self.look, ghost=0.0, is_wired=False), number, marked if marked is None else marked.tobytes())
             if needed != self._drawn_for or self._drawn is None:
                 self._drawn_for = needed
-                self._drawn = self.solid.faces(self.look, self._document.positions, self.values(), marked)
+                positions = None if snapshot is None else snapshot.positions
+                self._drawn = self.solid.faces(self.look, positions, self.values(), marked)
         assert self._drawn is not None
         return self._drawn
 
     def values(self) -> NDArray[Any] | None:
         """The quantity to peel by, where the newest map carries it: (m,) float32."""
-        snapshot = self._document.snapshot
+        snapshot = self._document.shown
         if snapshot is None or self.peel_by not in self._book:
             return None
         found = snapshot.fields.get(self._book[self.peel_by].field)
