@@ -37,6 +37,7 @@ from workbench.engine.messages import (
     Pause,
     Refused,
     Snapshot,
+    Watch,
     Step,
     TakeMap,
 )
