@@ -135,7 +135,7 @@ class Commands(QObject):
         if document.loaded is None or document.snapshot is None:
             return
         self._window.settings.folder = str(Path(path).parent)
-        anchors = document.anchors
+        anchors = document.anchors.in_force
         dimension = document.snapshot.positions.shape[1]
         self.saver.save(
             SaveRequest(

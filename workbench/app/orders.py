@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
 from workbench.core.arrays import Floats
 from workbench.engine.messages import Reset, Run, SetAnchors, Watch
 from workbench.engine.session_commands import problem_command, solver_command, take_up
 from workbench.session.session import Session
+
+
+def held_anchors(anchors: AnchorSet, dimension: int) -> SetAnchors:
+    """Those of the anchors that are in force, for an engine."""
+    held = anchors.in_force
+    return SetAnchors(held.vertices, held.target_array(dimension), held.weight_array, groups=held.group_numbers)
 
 
 class Orders:
@@ -37,17 +45,7 @@ class Orders:
         self.problem_serial += 1
 
     def anchors(self, anchors: AnchorSet, dimension: int, dragging: bool) -> None:
-        held = anchors.in_force
-        self._bridge.post(
-            SetAnchors(
-                held.vertices,
-                held.target_array(dimension),
-                held.weight_array,
-                serial=self.anchor_serial,
-                dragging=dragging,
-                groups=held.group_numbers,
-            )
-        )
+        self._bridge.post(replace(held_anchors(anchors, dimension), serial=self.anchor_serial, dragging=dragging))
 
     def number_anew(self) -> None:
         """What is under way answers something else from now on."""

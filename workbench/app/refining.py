@@ -57,7 +57,7 @@ class Refining(QObject):
         loaded, positions, dialog = document.loaded, document.positions, self.dialog
         if loaded is None or positions is None or dialog is None:
             return
-        anchors = document.anchors
+        anchors = document.anchors.in_force
         request = RefineRequest(
             loaded.mesh,
             loaded.kind,

@@ -133,7 +133,7 @@ class DissectionWindow(QDialog):
         ends = geometry.frame.to_display(positions[seen] + step.direction[seen])
         self.arrows.show_arrows(begins, ends - begins)
         scene = self.view.overlay.scene
-        held = self._document.anchors
+        held = self._document.anchors.in_force
         scene.anchor_vertices = held.vertices
         scene.anchor_points = geometry.frame.to_display(held.target_array(positions.shape[1]))
         scene.vertex_points = geometry.points[held.vertices]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from PySide6.QtCore import QObject
 
 from workbench.app.background import Background
+from workbench.app.orders import held_anchors
 from workbench.engine.messages import Reset, Run, SetAnchors, SetProblem
 from workbench.engine.race_messages import StartRace, StartWish
 
@@ -176,10 +176,8 @@ class Racing(QObject):
             self.race.model.move_anchors(f"{count} {'anchor' if count == 1 else 'anchors'} of the document", anchors)
 
     def _anchors(self, dimension: int) -> SetAnchors:
-        """Those of the document, all hard."""
-        anchors = self._document.anchors
-        weights = np.full(len(anchors), np.inf)
-        return SetAnchors(anchors.vertices, anchors.target_array(dimension), weights, groups=anchors.group_numbers)
+        """Those of the document that are in force."""
+        return held_anchors(self._document.anchors, dimension)
 
     def _race_closed(self) -> None:
         race, self.race = self.race, None
