@@ -250,7 +250,7 @@ def test_refused_with_one_sentence_and_nothing_written(words, cli, square_file, 
 
 
 def test_an_interrupt_ends_everyone_with_its_map(cli, square_file, tmp_path, monkeypatch):
-    monkeypatch.setattr("workbench.cli.interrupt.InterruptFlag.__call__", lambda self: True)
+    monkeypatch.setattr("workbench.engine.interrupt.InterruptFlag.__call__", lambda self: True)
     out = tmp_path / "race"
     assert cli("compare", square_file, "--solvers", "slim,aqp", "--quiet", "--no-figures", "--out", out).status == 0
     assert {row["status"] for row in rows_of(out / "table.csv")} == {"INTERRUPTED"}

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.output import json_text, number, table
-from workbench.cli.settings import add_set_option, assign
+from workbench.cli.settings import add_set_option
 
 if TYPE_CHECKING:
     from workbench.core.analysis import Analysis, Property
@@ -26,6 +26,7 @@ def run(options: argparse.Namespace) -> int:
     """Print what the formula is and which properties it has; `FormulaError` says why it is none."""
     from workbench.core.analysis import analyse
     from workbench.core.distortion import Distortion
+    from workbench.engine.parameter_owners import assign
 
     (values,) = assign(options.settings, options.distortion)
     distortion = Distortion.resolve(options.distortion, values)

@@ -9,16 +9,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from workbench.cli.interrupt import InterruptFlag
 from workbench.cli.options import add_problem_options, label_and_file
 from workbench.cli.output import json_text, number, table, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.engine.interrupt import InterruptFlag
 
 if TYPE_CHECKING:
     from workbench.cli.entries import Entry
-    from workbench.cli.preparation import PreparedProblem
     from workbench.engine.contestants import Contestant, SolverChoice
+    from workbench.engine.preparation import PreparedProblem
     from workbench.engine.race import Race
 
 RUN_FAILED = 1

@@ -8,12 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from workbench.cli.options import wishes_of
 from workbench.cli.output import full_sentence
-from workbench.cli.preparation import PreparedProblem, configured, prepare_problem
 from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry
 from workbench.core.solver import Solver
 from workbench.engine.contestants import Contestant, SolverChoice
+from workbench.engine.preparation import PreparedProblem, configured, prepare_problem
 from workbench.io.opening import map_from_file
 
 REFUSED = "REFUSED"
@@ -67,7 +68,7 @@ def _entry(
 ) -> Entry:
     unfit: dict[type[Solver], str] = {}
     methods = [registry().solver(choice.solver) for choice in choices]
-    prepared, settings = prepare_problem(options, file, methods, unfit)
+    prepared, settings = prepare_problem(wishes_of(options), file, methods, unfit)
     contestants = [
         Contestant(choice.label, configured(method, {**settings, **choice.values}, options.seed))
         for choice, method in zip(choices, methods, strict=True)

@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from workbench.cli.interrupt import InterruptFlag
 from workbench.cli.options import add_source_options, label_and_file, positive_count
 from workbench.cli.output import teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.engine.interrupt import InterruptFlag
 
 if TYPE_CHECKING:
     from workbench.figures.recipe import Recipe

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from workbench.cli.settings import add_set_option, assign, name_and_value
+from workbench.cli.settings import add_set_option, name_and_value
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ def run_save(options: argparse.Namespace) -> int:
     """Keep a formula and say its id."""
     from workbench.core.distortion import Distortion
     from workbench.core.named_formulas import NamedFormula
+    from workbench.engine.parameter_owners import assign
     from workbench.io.formula_store import NameTakenError, save_formula
 
     (values,) = assign(options.settings, options.formula)

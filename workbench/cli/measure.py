@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import add_source_options
 from workbench.cli.output import check_places, json_text, number, table
-from workbench.cli.settings import add_set_option, distortion_parameters
+from workbench.cli.settings import add_set_option
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -63,9 +63,9 @@ def open_given_map(options: argparse.Namespace) -> MapFile:
 
 def _measures(texts: list[str], settings: list[tuple[str, str]]) -> tuple[Measure, ...]:
     """The measures named, with the settings that each of them has. Raises `WorkbenchError` for one that none has."""
-    from workbench.cli.settings import assign
     from workbench.core.distortion import Distortion
     from workbench.core.measure import DESCRIPTORS, Measure
+    from workbench.engine.parameter_owners import assign, distortion_parameters
 
     forms = {text: () if text in DESCRIPTORS else distortion_parameters(text) for text in texts}
     for name, _ in settings:

@@ -6,8 +6,13 @@ import argparse
 import math
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from workbench.cli.settings import add_set_option
+from workbench.core.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.engine.preparation import Wishes
 
 FIXES = ("reorient", "largest", "unreferenced", "seams", "cut", "linearise", "tets")
 KINDS = ("auto", "plane", "parameterize", "volume")
@@ -99,3 +104,30 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     add("--seed", type=count, default=0, metavar="N", help="for methods that draw random numbers (default: 0)")
     add("--allow-inversions", action="store_true", help="let distortions without a barrier invert simplices")
     add("--quiet", action="store_true", help="no progress; errors are still said")
+
+
+def wishes_of(options: argparse.Namespace) -> Wishes:
+    """What the options of `add_problem_options` ask for; the linear solver is chosen for this process and its children.
+
+    Raises `WorkbenchError` for a linear solver that is not there, and for a repair.
+    """
+    from workbench.core.linear_solver import CHOICE, check_back_end
+    from workbench.engine.preparation import Wishes
+
+    if options.linear_solver:
+        check_back_end(options.linear_solver)
+        os.environ[CHOICE] = options.linear_solver
+    if options.repair not in ("auto", "none"):
+        raise WorkbenchError(f"There is no repair {options.repair!r}; there are: auto, none.")
+    return Wishes(
+        kind=options.map,
+        fixes=options.fixes,
+        tets=options.tets,
+        distortion=options.distortion,
+        settings=options.settings,
+        init=options.init,
+        anchors=options.anchors,
+        pin_boundary=options.pin_boundary,
+        allow_inversions=options.allow_inversions,
+        seed=options.seed,
+    )

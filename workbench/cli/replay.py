@@ -8,11 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from workbench.cli.interrupt import InterruptFlag
 from workbench.cli.options import positive_count
 from workbench.cli.output import json_text, number, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.engine.interrupt import InterruptFlag
 
 if TYPE_CHECKING:
     from workbench.engine.replay import Replayed
@@ -74,8 +74,8 @@ def _with_mesh(record: SessionRecord, mesh: str | None) -> SessionRecord:
 
 
 def _write(options: argparse.Namespace, record: SessionRecord, opened: OpenedSource, found: Replayed) -> dict[str, Any]:
-    from workbench.cli.preparation import Prepared
-    from workbench.cli.report import build_report, history_text
+    from workbench.engine.preparation import Prepared
+    from workbench.engine.run_report import build_report, history_text
     from workbench.io.anchors import write_anchors
     from workbench.io.atomic import filling, write_text
     from workbench.io.write import write_map

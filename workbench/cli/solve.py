@@ -10,17 +10,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.carrying import add_carry_options, carried_report, check_carry_options, read_carried, write_carried
-from workbench.cli.interrupt import InterruptFlag
-from workbench.cli.options import add_solve_options
+from workbench.cli.options import add_solve_options, wishes_of
 from workbench.cli.output import check_places, json_text, number, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.engine.interrupt import InterruptFlag
 
 if TYPE_CHECKING:
     from workbench.cli.carrying import Carried
-    from workbench.cli.preparation import Prepared
     from workbench.core.run import HistoryRow, RunResult
-    from workbench.core.state import State
+    from workbench.engine.preparation import Prepared
 
 RUN_FAILED = 1
 PROGRESS_INTERVAL = 0.5
@@ -44,9 +43,9 @@ def run(options: argparse.Namespace) -> int:
     """Solve, and write the last map, report and history whatever the status."""
     limit_threads(options.threads)
     _check_outputs(options)
-    from workbench.cli.preparation import prepare
+    from workbench.engine.preparation import prepare
 
-    prepared = prepare(options)
+    prepared = prepare(wishes_of(options), options.file, options.solver)
     carried = read_carried(options, prepared.opened)
     tell = teller(options.quiet)
     for note in (*prepared.opened.notes, *((carried.surface.note,) if carried and carried.surface.note else ())):
@@ -76,51 +75,35 @@ def _solve(
     prepared: Prepared, options: argparse.Namespace, interrupt: InterruptFlag, tell: Callable[[str], None]
 ) -> tuple[RunResult, str]:
     """The result, and the sentence of a solver that raised (a plugin's fault): then the result ends at its last map."""
-    from workbench.core.run import RunResult, run
+    from workbench.engine.last_map_run import run_to_last_map
 
-    rows: list[HistoryRow] = []
-    states: list[State] = []
-    begin = told = time.perf_counter()
+    told = time.perf_counter()
 
     def on_row(row: HistoryRow) -> None:
         nonlocal told
-        rows.append(row)
         if time.perf_counter() - told >= PROGRESS_INTERVAL:
             told = time.perf_counter()
             words = f"iteration {row.iteration}  energy {number(row.energy, 9)}  inverted {row.inverted}"
             tell(f"{words}  {row.seconds:.1f} s")
 
-    def on_state(state: State) -> None:
-        states[:] = [state] if not states else [states[0], state]
-
-    try:
-        result = run(
-            prepared.solver,
-            prepared.problem,
-            prepared.start,
-            iterations=options.iterations,
-            tolerance=options.tolerance,
-            gradient_tolerance=options.gradient_tolerance,
-            time_limit=options.time_limit,
-            interrupt=interrupt,
-            on_row=on_row,
-            on_state=on_state,
-        )
-    except (Exception, SystemExit) as error:
-        if not states:
-            raise WorkbenchError(f"{prepared.solver.label} failed at the start: {type(error).__name__}: {error}") from error
-        seconds = {"total": time.perf_counter() - begin, **prepared.problem.workspace.all_seconds()}
-        step = f"{prepared.solver.label} failed in step {states[-1].iteration + 1}: {type(error).__name__}: {error}"
-        sentence = error.sentence if isinstance(error, WorkbenchError) else step
-        return RunResult(states[-1], states[0], tuple(rows), seconds), sentence
-    return result, ""
+    return run_to_last_map(
+        prepared.solver,
+        prepared.problem,
+        prepared.start,
+        iterations=options.iterations,
+        tolerance=options.tolerance,
+        gradient_tolerance=options.gradient_tolerance,
+        time_limit=options.time_limit,
+        interrupt=interrupt,
+        on_row=on_row,
+    )
 
 
 def _write(
     prepared: Prepared, carried: Carried | None, options: argparse.Namespace, result: RunResult, fault: str
 ) -> dict[str, Any]:
-    from workbench.cli.report import build_report, history_text
     from workbench.core.measure import Measure
+    from workbench.engine.run_report import build_report, history_text
     from workbench.io.atomic import write_text
     from workbench.io.write import write_map
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from workbench.cli.preparation import Prepared
 from workbench.core.injectivity import global_injectivity, local_injectivity
 from workbench.core.jacobians import determinants, signed_singular_values
 from workbench.core.run import HistoryRow, RunResult
 from workbench.core.threads import thread_count
 from workbench.engine.doctor import versions
+from workbench.engine.preparation import Prepared
 from workbench.io.write import csv_text
 
 SCHEMA = 1
