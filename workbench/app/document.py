@@ -37,9 +37,9 @@ from workbench.engine.messages import (
     Pause,
     Refused,
     Snapshot,
-    Watch,
     Step,
     TakeMap,
+    Watch,
 )
 from workbench.engine.session_commands import leg_of
 from workbench.session.journal import Journal
