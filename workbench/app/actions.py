@@ -55,6 +55,7 @@ TEXTS: dict[str, ActionText] = {
     "next-place": ActionText("&Next place to blame", ("F3",), "To the next inverted simplex, or other place of the verdict"),
     "last-place": ActionText("Previous place", ("Shift+F3",)),
     "dissect": ActionText("A step &dissected…", ("Ctrl+D",), "Direction, bound and line search of the next step"),
+    "palette": ActionText("&Command palette…", ("Ctrl+Shift+P",), "Find whatever the window can do by a few letters"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),

@@ -14,6 +14,7 @@ from workbench.app.background import Background
 from workbench.app.composing.composing import Composing
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT, SHORTCUTS
+from workbench.app.palette.commanding import Commanding
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
 from workbench.app.reporter import source_name
@@ -50,6 +51,7 @@ class Commands(QObject):
         self.racing = Racing(window)
         self.composing = Composing(window)
         self.judging = Judging(window)
+        self.commanding = Commanding(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
         document = window.document
@@ -84,6 +86,7 @@ class Commands(QObject):
             "judge": self.judging.ask,
             "next-place": lambda: self.judging.walk(1),
             "last-place": lambda: self.judging.walk(-1),
+            "palette": self.commanding.ask,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),

@@ -64,6 +64,7 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("judge", "next-place", "last-place"):
         analyse.addAction(actions[name])
     view = bar.addMenu("&View")
+    view.addAction(actions["palette"])
     for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
         view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()

@@ -10,6 +10,7 @@ from PySide6.QtCore import QByteArray, QSettings
 
 RECENT_COUNT = 10
 RECENT_FORMULAS = 20
+RECENT_COMMANDS = 30
 
 
 class Settings:
@@ -43,9 +44,7 @@ class Settings:
         self._remember("sessions", path)
 
     def _files(self, key: str) -> list[str]:
-        value: Any = self._store.value(key, [])
-        paths = [value] if isinstance(value, str) else list(value or [])
-        return [str(p) for p in paths if p and Path(str(p)).is_file()]
+        return [path for path in self._texts(key) if _is_file(path)]
 
     def _remember(self, key: str, path: str) -> None:
         full = str(Path(path).resolve())
@@ -55,12 +54,28 @@ class Settings:
     @property
     def recent_formulas(self) -> list[str]:
         """Newest first."""
-        value: Any = self._store.value("formulas", [])
-        return [value] if isinstance(value, str) else [str(text) for text in value or []]
+        return self._texts("formulas")
 
     def remember_formula(self, formula: str) -> None:
-        others = [text for text in self.recent_formulas if text != formula]
-        self._store.setValue("formulas", [formula, *others][:RECENT_FORMULAS])
+        self._put_first("formulas", formula, RECENT_FORMULAS)
+
+    @property
+    def recent_commands(self) -> list[str]:
+        """Keys of what was done by the palette, newest first."""
+        return self._texts("commands")
+
+    def remember_command(self, key: str) -> None:
+        self._put_first("commands", key, RECENT_COMMANDS)
+
+    def _texts(self, key: str) -> list[str]:
+        """A list of texts; what is none, in a file that something else has written, is passed over."""
+        value: Any = self._store.value(key, [])
+        values = value if isinstance(value, list | tuple) else [value]
+        return [text for text in values if isinstance(text, str) and text]
+
+    def _put_first(self, key: str, text: str, most: int) -> None:
+        others = [other for other in self._texts(key) if other != text]
+        self._store.setValue(key, [text, *others][:most])
 
     @property
     def theme(self) -> str:
@@ -102,3 +117,10 @@ class Settings:
 
     def sync(self) -> None:
         self._store.sync()
+
+
+def _is_file(path: str) -> bool:
+    try:
+        return Path(path).is_file()
+    except (OSError, ValueError):  # a name too long, a zero byte
+        return False

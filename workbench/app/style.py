@@ -27,6 +27,8 @@ def style_sheet(theme: Theme) -> str:
     QToolButton#switch:checked {{ background: {theme.accent}; color: #ffffff; border: 1px solid {theme.accent};
         border-radius: 3px; padding: 3px 5px; }}
     QToolButton#switch:checked:disabled {{ background: {theme.border}; color: {theme.faint}; border-color: {theme.border}; }}
+    QFrame#palette {{ background: {theme.window}; border: 1px solid {theme.faint}; border-radius: 6px; }}
+    QFrame#palette QListView {{ background: {theme.window}; }}
     QStatusBar {{ border-top: 1px solid {theme.border}; }}
     QStatusBar::item {{ border: 0; }}
     QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}

@@ -32,6 +32,7 @@ class Racing(QObject):
         self._generation = -1
         self._finder: Background | None = None
         self._registry: Registry | None = None
+        self._preset = ""
         self.dialog: SetUpDialog | None = None
         self.race: RaceWindow | None = None
         self.make_worker: Any = None
@@ -47,8 +48,9 @@ class Racing(QObject):
         else:
             self.ask_contestants()
 
-    def ask_contestants(self) -> None:
-        """Open the dialog, once the methods are found."""
+    def ask_contestants(self, preset: str = "") -> None:
+        """Open the dialog, once the methods are found; `preset` fills it with a comparison."""
+        self._preset = preset
         if self._document.mesh is None or self._document.positions is None:
             self._window.status.say("Open a mesh first; then solvers can race on it.")
             return
@@ -80,6 +82,8 @@ class Racing(QObject):
         self.dialog = SetUpDialog(ground, registry, self._drafts, owner)
         self.dialog.chosen.connect(self.begin)
         self.dialog.finished.connect(self._dialog_closed)
+        if self._preset:
+            self.dialog.take_preset(self._preset)
         self.dialog.open()
 
     def _dialog_closed(self) -> None:

@@ -217,6 +217,11 @@ class SetUpDialog(QDialog):
             action.setToolTip(reason or " ".join((solver.__doc__ or "").split("\n\n")[0].split()))
             action.triggered.connect(lambda _=False, i=id: self.add_solver(i))
 
+    def take_preset(self, id: str) -> None:
+        """Choose a comparison of the list."""
+        self.preset.setCurrentIndex(self.preset.findData(id))
+        self._take_preset()
+
     def _take_preset(self) -> None:
         preset = PRESETS.get(str(self.preset.currentData()))
         if preset is None:

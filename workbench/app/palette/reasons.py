@@ -1,0 +1,21 @@
+"""Why something cannot be done now, in a few words."""
+
+from __future__ import annotations
+
+NO_MESH = "no mesh is open"
+NO_SOLID = "what is open is no solid"
+REASONS = {
+    **dict.fromkeys(("run", "step", "reset", "save", "refine", "pin", "box", "clear", "fit", "race"), NO_MESH),
+    "undo": "nothing was done yet",
+    "redo": "nothing was taken back",
+    "cut": NO_SOLID,
+    "uncut": NO_SOLID,
+}
+BY_MENU = {
+    "Carry a surface": "only a solid carries a surface, and only one that is carried can be saved or let go",
+}
+
+
+def reason_of(name: str, path: tuple[str, ...]) -> str:
+    """What an action waits for, by its name or else by its menu; empty where that is not known."""
+    return REASONS.get(name) or BY_MENU.get(path[-1] if path else "", "")
