@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from workbench.cli.output import json_text, number, table
 from workbench.cli.settings import add_set_option
+from workbench.io.json_text import json_text
+from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.core.analysis import Analysis, Property

@@ -8,9 +8,10 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from workbench.cli.options import amount
-from workbench.cli.output import json_text, table
 from workbench.cli.settings import add_set_option
 from workbench.core.errors import WorkbenchError
+from workbench.io.json_text import json_text
+from workbench.io.tables import table
 
 if TYPE_CHECKING:
     from workbench.core.solver_laws import Finding

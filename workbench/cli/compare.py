@@ -10,10 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import add_problem_options, label_and_file
-from workbench.cli.output import json_text, number, table, teller
+from workbench.cli.output import teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 from workbench.engine.interrupt import InterruptFlag
+from workbench.io.json_text import json_text
+from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.cli.entries import Entry

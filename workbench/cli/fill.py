@@ -6,8 +6,9 @@ import argparse
 from typing import Any
 
 from workbench.cli.options import amount, fixes
-from workbench.cli.output import check_places, json_text, teller
+from workbench.cli.output import check_places, teller
 from workbench.core.errors import WorkbenchError
+from workbench.io.json_text import json_text
 
 SCHEMA = 1
 ENDINGS = (".mesh", ".msh", ".vtu", ".npz", ".obj")

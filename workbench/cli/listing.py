@@ -6,7 +6,8 @@ import argparse
 from collections.abc import Callable
 from typing import Any
 
-from workbench.cli.output import json_text, table
+from workbench.io.json_text import json_text
+from workbench.io.tables import table
 
 Entry = dict[str, Any]
 

@@ -7,9 +7,11 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import add_source_options
-from workbench.cli.output import check_places, json_text, number, table
+from workbench.cli.output import check_places
 from workbench.cli.settings import add_set_option
 from workbench.core.errors import WorkbenchError
+from workbench.io.json_text import json_text
+from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.core.measure import Measure

@@ -1,38 +1,13 @@
-"""What is printed and written: strict JSON, tables, places that can be written to."""
+"""What is printed: sentences, progress; places that can be written to."""
 
 from __future__ import annotations
 
-import json
-import math
 import os
 import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 from workbench.core.errors import WorkbenchError
-
-
-def plain(value: Any) -> Any:
-    """`value` as JSON can hold it: NumPy's types become Python's, numbers that are not finite become None."""
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, str) or value is None or isinstance(value, bool):
-        return value
-    if hasattr(value, "tolist"):  # arrays and scalars of NumPy
-        return plain(value.tolist())
-    if isinstance(value, int):
-        return value
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, Iterable):
-        return [plain(item) for item in value]
-    return str(value)
-
-
-def json_text(value: Any) -> str:
-    """JSON with a line break at its end; no NaN, no Infinity."""
-    return json.dumps(plain(value), indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def full_sentence(error: WorkbenchError) -> str:
@@ -72,19 +47,3 @@ def _say(sentence: str) -> None:
 
 def _silent(sentence: str) -> None:
     pass
-
-
-def table(rows: Sequence[Sequence[str]]) -> str:
-    """Left-aligned columns, two spaces apart; the last column is not padded."""
-    if not rows:
-        return ""
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = ("  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows)
-    return "\n".join(lines)
-
-
-def number(value: Any, digits: int = 6) -> str:
-    """A number as people read it."""
-    if value is None:
-        return "-"
-    return f"{float(value):.{digits}g}"

@@ -7,8 +7,10 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import add_source_options, count
-from workbench.cli.output import check_places, json_text, number, table, teller
+from workbench.cli.output import check_places, teller
 from workbench.core.errors import MeshError, WorkbenchError
+from workbench.io.json_text import json_text
+from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.core.distortion import Distortion

@@ -9,10 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.options import positive_count
-from workbench.cli.output import json_text, number, teller
+from workbench.cli.output import teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 from workbench.engine.interrupt import InterruptFlag
+from workbench.io.json_text import json_text
+from workbench.io.tables import number
 
 if TYPE_CHECKING:
     from workbench.engine.replay import Replayed

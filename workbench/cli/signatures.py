@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.cli.options import add_source_options, positive_count
-from workbench.cli.output import check_places, json_text, number, table
+from workbench.cli.output import check_places
 from workbench.core.errors import WorkbenchError
+from workbench.io.json_text import json_text
+from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.core.signature import Distances, Signature

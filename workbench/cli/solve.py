@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 from workbench.cli.carrying import add_carry_options, carried_report, check_carry_options, read_carried, write_carried
 from workbench.cli.options import add_solve_options, wishes_of
-from workbench.cli.output import check_places, json_text, number, teller
+from workbench.cli.output import check_places, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
 from workbench.engine.interrupt import InterruptFlag
+from workbench.io.json_text import json_text
+from workbench.io.tables import number
 
 if TYPE_CHECKING:
     from workbench.cli.carrying import Carried

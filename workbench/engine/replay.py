@@ -12,22 +12,19 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
-from workbench.core.guarded_step import guarded_step
 from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
 from workbench.core.run import HistoryRow, RunResult, history_row, run
 from workbench.core.solver import Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
+from workbench.engine.exact_iterations import iterate_exactly
 from workbench.engine.legs import state_without_past
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
 from workbench.io.opening import OpenedSource
 from workbench.session.journal import Leg
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
-
-MOST_IDLE = 100
-"""Steps in a row that may change what a solver remembers and no more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +76,8 @@ def problem_of(session: Session, opened: OpenedSource) -> Problem:
     mesh = opened.mesh
     distortion = Distortion.resolve(session.distortion, session.distortion_parameters)
     anchors = anchors_of(session, mesh.vertex_count, mesh.dimension)
-    return Problem.create(mesh, opened.kind, distortion, anchors, allow_inversions=session.allow_inversions)
+    problem = Problem.create(mesh, opened.kind, distortion, anchors, allow_inversions=session.allow_inversions)
+    return with_equations(problem, session.linear_equations)
 
 
 def check_maps(record: SessionRecord, opened: OpenedSource) -> None:
@@ -154,7 +152,15 @@ def _repeat(
             positions = _start(leg.choices, opened, initializer, leg_problem) if positions is None else positions
         assert positions is not None
         leg_problem = _with_boundary(leg_problem, leg.choices, positions)
-        first, last = _iterated(leg, leg_problem, State(positions, iteration), interrupt, begin, note)
+        first, last = iterate_exactly(
+            solver_of(leg.choices, leg_problem),
+            leg_problem,
+            State(positions, iteration),
+            leg.iterations,
+            interrupt=interrupt,
+            begin=begin,
+            on_row=note,
+        )
         initial = initial or first
         positions, iteration, status = last.positions, last.iteration, last.status
     assert positions is not None
@@ -173,7 +179,8 @@ def _problem_of_leg(problem: Problem, leg: Leg) -> Problem:
     choices = leg.choices
     distortion = Distortion.resolve(choices.distortion, choices.distortion_parameters)
     changed = problem.with_distortion(distortion, choices.allow_inversions).with_criteria(Criteria(choices.tolerance))
-    return changed.with_anchors(anchors_of(choices, problem.mesh.vertex_count, problem.dimension))
+    changed = changed.with_anchors(anchors_of(choices, problem.mesh.vertex_count, problem.dimension))
+    return with_equations(changed, choices.linear_equations)
 
 
 def _with_boundary(problem: Problem, choices: Session, positions: Floats) -> Problem:
@@ -182,30 +189,6 @@ def _with_boundary(problem: Problem, choices: Session, positions: Floats) -> Pro
         return problem
     boundary = problem.mesh.topology.boundary_vertices
     return problem.with_anchors(problem.anchors.with_added(boundary, positions[boundary]))
-
-
-def _iterated(
-    leg: Leg, problem: Problem, state: State, interrupt: Interrupt, begin: float, note: Callable[[HistoryRow], None]
-) -> tuple[State, State]:
-    """First and last state of a leg; one that ends early, as a solver has nothing left to do, ends there."""
-    solver = solver_of(leg.choices, problem)
-    problem, state = state_without_past(solver, problem, state)
-    first = state
-    note(history_row(problem, state, time.perf_counter() - begin))
-    end, idle, ended = state.iteration + leg.iterations, 0, Status.RUNNING
-    while state.iteration < end and idle < MOST_IDLE and not interrupt():
-        following = guarded_step(solver, problem, state, interrupt)
-        if following.iteration > state.iteration:
-            idle = 0
-            note(history_row(problem, following, time.perf_counter() - begin))
-        elif following.status is not Status.RUNNING:
-            ended = following.status
-            break
-        else:
-            idle += 1
-        ended = solver.terminate(problem, following)
-        state = replace(following, status=Status.RUNNING)
-    return first, replace(state, status=Status.INTERRUPTED if ended is Status.RUNNING else ended)
 
 
 def _initializer(session: Session, opened: OpenedSource, solver: Solver) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -36,13 +37,21 @@ def settle(figure: Figure) -> None:
         figure.set_layout_engine("none")
 
 
+def figure_bytes(figure: Figure, ending: str, dpi: int = 160) -> bytes:
+    """`figure` in the format of an ending out of `FORMATS`; `dpi` is that of pixels."""
+    import matplotlib
+
+    stream = io.BytesIO()
+    with matplotlib.rc_context(SETTINGS):
+        figure.savefig(stream, format=ending[1:], dpi=dpi, metadata=NO_DATES[ending])
+    return stream.getvalue()
+
+
 def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 160) -> None:
     """Write `figure` in the format of the ending of `path`; `dpi` is that of pixels.
 
     Raises `WorkbenchError` where it cannot be written.
     """
-    import matplotlib
-
     ending = check_format(path)
-    with replacing(path) as part, matplotlib.rc_context(SETTINGS):
-        figure.savefig(part, format=ending[1:], dpi=dpi, metadata=NO_DATES[ending])
+    with replacing(path) as part:
+        part.write_bytes(figure_bytes(figure, ending, dpi))
