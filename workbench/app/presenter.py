@@ -275,6 +275,7 @@ class Presenter(QObject):
             else:
                 scene.anchor_points = scene.vertex_points
             scene.selected, scene.grouped = document.selected_anchors, frozenset(anchors.groups)
+            scene.soft, scene.off = frozenset(anchors.weights), anchors.off
             scene.gizmo = (
                 gizmo_of(scene.anchor_points[scene.is_selected], is_flat=geometry.is_flat) if view is self.target else None
             )

@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -22,24 +22,16 @@ from PySide6.QtWidgets import QWidget
 
 from workbench.app.handling.gizmo import Gizmo
 from workbench.app.handling.normals import faces_away
-from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, LIGHT, LIMITING, Theme
+from workbench.app.theme import LIGHT, LIMITING, Theme
+from workbench.app.views.anchor_paint import paint_anchors
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo
-from workbench.app.views.stamps import stamp_discs
 from workbench.core.arrays import Booleans, Integers
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QEvent
 
     from workbench.app.views.mesh_view import MeshView
-
-RADIUS = 6.5
-"""Radius of an anchor's disc in pixels."""
-SMALL_RADIUS = 3.5
-BEHIND = 0.35
-"""Opacity of anchors that the solid hides."""
-MANY = 40
-"""Number of anchors from which on their discs are small."""
 
 
 def _no_points() -> Points:
@@ -52,7 +44,7 @@ class OverlayScene:
 
     `anchor_vertices` (k,), `anchor_points` (k, 3) where the discs stand, `vertex_points` (k, 3) where their
     vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
-    are selected, and that move with others. `hot_handle` is the kind and axis of the handle of the `gizmo` that is meant;
+    are selected, and that move with others, `soft` and `off` those that are soft, and that hold nothing. `hot_handle` is the kind and axis of the handle of the `gizmo` that is meant;
     `guide` (2, 3) the line along which anchors are pulled, `hold_words` what to say about that at the pixel `hold_at`;
     `box` two corners in pixels; `hint` a line at the lower edge, what keys and buttons would do now.
     """
@@ -62,6 +54,8 @@ class OverlayScene:
     vertex_points: Points = field(default_factory=_no_points)
     selected: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     grouped: frozenset[int] = frozenset()
+    soft: frozenset[int] = frozenset()
+    off: frozenset[int] = frozenset()
     gizmo: Gizmo | None = None
     hot_handle: tuple[str, int] | None = None
     guide: Points | None = None
@@ -78,6 +72,10 @@ class OverlayScene:
     def is_selected(self) -> Booleans:
         """(k,) which of the anchors are."""
         return np.isin(self.anchor_vertices, self.selected)
+
+    def among(self, vertices: frozenset[int]) -> Booleans:
+        """(k,) which of the anchors are among `vertices`."""
+        return np.isin(self.anchor_vertices, np.fromiter(vertices, np.int64, len(vertices)))
 
     def is_grouped(self, vertex: int) -> bool:
         return vertex in self.grouped
@@ -175,22 +173,16 @@ class Overlay(QWidget):
         scene = self.scene
         if not len(scene.anchor_vertices):
             return
-        discs = self._view.project(scene.anchor_points)
-        vertices = self._view.project(scene.vertex_points)
-        radius = RADIUS if len(discs) <= MANY else SMALL_RADIUS
-        rim = QPen(ANCHOR_RIM, 1.8 if radius == RADIUS else 1.0)
-        leash = QPen(QColor(self.theme.text), 1.2, Qt.PenStyle.DashLine)
-        far = np.abs(discs - vertices).max(axis=1) > 2.0
-        if far.any():
-            if np.count_nonzero(far) > MANY:  # dashes of hundreds of lines take longer than all the rest
-                leash = QPen(QColor(self.theme.faint), 1.0)
-            painter.setPen(leash)
-            painter.drawLines([QLineF(*ends) for ends in np.hstack([vertices, discs])[far].tolist()])
-        is_selected, is_behind = scene.is_selected, self._behind(scene.anchor_vertices)
-        for behind in (True, False):
-            painter.setOpacity(BEHIND if behind else 1.0)
-            for colour, chosen, larger in ((ANCHOR, ~is_selected, 0.0), (ANCHOR_SELECTED, is_selected, 1.0)):
-                stamp_discs(painter, discs[chosen & (is_behind == behind)], colour, rim, radius + larger)
+        paint_anchors(
+            painter,
+            self._view.project(scene.anchor_points),
+            self._view.project(scene.vertex_points),
+            is_selected=scene.is_selected,
+            is_soft=scene.among(scene.soft),
+            is_off=scene.among(scene.off),
+            is_behind=self._behind(scene.anchor_vertices),
+            theme=self.theme,
+        )
 
     def _behind(self, vertices: Integers) -> Booleans:
         """(k,) which of these are at the back of a solid, or inside; surfaces have no back."""
