@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QSplitter, QVBoxLayout, QWidget
 
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
-from workbench.app.background import Background
 from workbench.app.carrying.carried_view import CarriedView
 from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
@@ -28,6 +26,7 @@ from workbench.app.handling.anchor_menu import AnchorMenu
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
+from workbench.app.method_finder import MethodFinder, find_methods
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
 from workbench.app.presenter import Presenter
@@ -49,7 +48,6 @@ from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.look_tools import LookTools
 from workbench.app.volumes.volume_view import VolumeView
-from workbench.core.errors import WorkbenchError
 
 SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
 TARGET_STYLES = {"plain": "Plain"}
@@ -112,11 +110,10 @@ class MainWindow(QMainWindow):
         self._apply_theme(self.theme)
         self.view_memory = ViewMemory(self)
         self._restore_layout()
-        # methods are found on a thread: their imports would hold up the first picture
-        self._finder = Background(_find_methods, self)
-        self._finder.finished.connect(self._methods_found)
+        self._finder = MethodFinder(self)
+        self._finder.found.connect(self._methods_found)
         self._finder.failed.connect(self.reporter.show_exception)
-        QTimer.singleShot(0, self, self._finder.start)
+        self._finder.start()
 
     @property
     def theme(self) -> Theme:
@@ -254,7 +251,7 @@ class MainWindow(QMainWindow):
 
     def _methods_found(self, registry: Any) -> None:
         self.panel.set_registry(registry)
-        self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_methods(_find_methods()))
+        self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_methods(find_methods()))
         self._list_methods(registry)
         self.reporter.show_plugin_failures(registry)
 
@@ -338,14 +335,3 @@ class MainWindow(QMainWindow):
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()
         super().closeEvent(event)
-
-
-def _find_methods() -> Any:
-    """Every method, its formula made ready for tetrahedra, too: the first solid then opens without a pause."""
-    from workbench.core.registry import registry
-
-    found = registry()
-    for item in found.distortions.values():
-        with suppress(WorkbenchError):  # one of the plane only
-            item.compiled(3)
-    return found

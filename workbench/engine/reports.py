@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from workbench.core.errors import WorkbenchError
 from workbench.core.facets import facet_table, neighbouring_simplices
+from workbench.core.samples import sample_info
 from workbench.engine.messages import Command, Load, Loaded, Refused, SetProblem
+from workbench.io.opening import SAMPLE
 
 if TYPE_CHECKING:
     from workbench.io.opening import OpenedSource
@@ -14,6 +18,9 @@ if TYPE_CHECKING:
 
 def loaded_report(command: Load, opened: OpenedSource) -> Loaded:
     """The mesh as it was read, with what the window needs at once."""
+    anchors = opened.anchor_vertices
+    if anchors is None and command.source.startswith(SAMPLE):  # here the mesh is made already, in the window it is not
+        anchors = np.array(sample_info(command.source.removeprefix(SAMPLE)).anchors, dtype=np.int64)
     return Loaded(
         generation=command.generation,
         mesh=opened.mesh,
@@ -22,7 +29,7 @@ def loaded_report(command: Load, opened: OpenedSource) -> Loaded:
         cut_edges=opened.cut_edges,
         source=command.source,
         fixes=command.fixes,
-        anchor_vertices=opened.anchor_vertices,
+        anchor_vertices=anchors,
         anchor_targets=opened.anchor_targets,
         neighbours=neighbouring_simplices(facet_table(opened.mesh.simplices)) if opened.kind == "volume" else None,
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from workbench.core.arrays import Floats
 
@@ -25,15 +24,18 @@ class RigidMotion:
     turn: Floats = field(default_factory=_nothing)
     centre: Floats = field(default_factory=_nothing)
 
-    def of(self, points: Floats) -> Floats:
-        """(k, d) where points (k, d) are afterwards; those of a motion without a turn are shifted and nothing else."""
-        d = points.shape[1]
+    def of(self, points: Floats, part: Floats | float = 1.0) -> Floats:
+        """(k, d) where points (k, d) are afterwards; those of a motion without a turn are shifted and nothing else.
+
+        `part` : of the motion that each point makes, one number or (k,)
+        """
+        d, each = points.shape[1], np.broadcast_to(part, len(points))[:, None]
         if not self.turn.any():
-            return np.asarray(points + self.shift[:d])
+            return np.asarray(points + each * self.shift[:d])
         arms = np.zeros((len(points), 3))
         arms[:, :d] = points - self.centre[:d]
-        turned = Rotation.from_rotvec(self.turn).apply(arms)[:, :d]
-        return np.asarray(self.centre[:d] + self.shift[:d] + turned)
+        turned = Rotation.from_rotvec(each * self.turn).apply(arms)[:, :d]
+        return np.asarray(self.centre[:d] + each * self.shift[:d] + turned)
 
     def part(self, part: float) -> RigidMotion:
         """The way to it: 0 is where it begins, 1 the whole of it."""

@@ -1,0 +1,58 @@
+"""Finding the methods beside the window: their imports would hold up the first picture."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import Any
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from workbench.app.background import Background
+from workbench.core.errors import WorkbenchError
+
+PAUSE = 1500
+"""Milliseconds from the list of methods to the work on their formulas: the first map comes in between."""
+
+
+class MethodFinder(QObject):
+    """`found` carries the registry; afterwards formulas are made ready for tetrahedra: a solid then opens without a pause."""
+
+    found = Signal(object)
+    failed = Signal(object)
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._search = Background(find_methods, self)
+        self._search.finished.connect(self._take)
+        self._search.failed.connect(self.failed)
+        self._preparation: Background | None = None
+
+    def start(self) -> None:
+        """Look for them when the event loop is idle for the first time."""
+        QTimer.singleShot(0, self, self._search.start)
+
+    def wait(self) -> None:
+        """Let the threads end before the window does."""
+        for work in (self._search, self._preparation):
+            if work is not None:
+                work.wait()
+
+    def _take(self, registry: Any) -> None:
+        self._preparation = Background(lambda: prepare_formulas(registry), self)
+        self._preparation.failed.connect(self.failed)
+        QTimer.singleShot(PAUSE, self, self._preparation.start)
+        self.found.emit(registry)
+
+
+def find_methods() -> Any:
+    """Every method that there is now."""
+    from workbench.core.registry import registry
+
+    return registry()
+
+
+def prepare_formulas(registry: Any) -> None:
+    """Differentiate every formula for three singular values; one that was done already costs nothing."""
+    for item in registry.distortions.values():
+        with suppress(WorkbenchError):  # one of the plane only
+            item.compiled(3)
