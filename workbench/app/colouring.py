@@ -45,6 +45,17 @@ class Colouring(QObject):
         """Name of a pattern, or id of a quantity."""
         return self._styles[pane]
 
+    def add(self, pane: ViewPane) -> None:
+        """Colour one more view."""
+        self._styles[pane] = pane.chooser.current
+        self.apply(pane)
+        self.watch()
+
+    def remove(self, pane: ViewPane) -> None:
+        """A view is gone."""
+        del self._styles[pane]
+        self.watch()
+
     def set_style(self, pane: ViewPane, style: str) -> None:
         """Colour a view by a pattern or by a quantity; its values come with the next snapshot."""
         self._styles[pane] = style

@@ -94,6 +94,23 @@ def _inspect(painter: QPainter) -> None:
     painter.drawLine(QPointF(38, 38), QPointF(53, 53))
 
 
+def _chain(painter: QPainter) -> None:
+    painter.setPen(QPen(painter.brush().color(), 6))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.translate(32, 32)
+    painter.rotate(-40)
+    for left in (-27, -3):
+        painter.drawRoundedRect(QRectF(left, -10, 30, 20), 10, 10)
+
+
+def _split(painter: QPainter) -> None:
+    painter.setPen(QPen(painter.brush().color(), 5))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawRect(QRectF(9, 12, 46, 40))
+    painter.drawLine(QPointF(32, 12), QPointF(32, 52))
+    painter.drawLine(QPointF(32, 32), QPointF(55, 32))
+
+
 DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "run": _run,
     "pause": _pause,
@@ -106,6 +123,8 @@ DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "pin": _pin,
     "clear": _clear,
     "inspect": _inspect,
+    "chain": _chain,
+    "split": _split,
 }
 
 

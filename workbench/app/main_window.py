@@ -7,7 +7,7 @@ from typing import Any
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QVBoxLayout, QWidget
 
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
@@ -40,6 +40,8 @@ from workbench.app.sessions.undo_dock import UndoDock
 from workbench.app.sessions.undoing import Undoing
 from workbench.app.settings import Settings
 from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.splitting.pane_grid import PaneGrid
+from workbench.app.splitting.splitting import Splitting
 from workbench.app.status_line import StatusLine
 from workbench.app.style import style_sheet
 from workbench.app.switches import Switches
@@ -124,11 +126,7 @@ class MainWindow(QMainWindow):
     def _make_centre(self) -> None:
         self.source = ViewPane("Source", SOURCE_STYLES, self.quantities, self.theme, self)
         self.target = ViewPane("Target", TARGET_STYLES, self.quantities, self.theme, self)
-        splitter = QSplitter(Qt.Orientation.Horizontal, self)
-        splitter.addWidget(self.source)
-        splitter.addWidget(self.target)
-        splitter.setChildrenCollapsible(False)
-        splitter.setSizes([500, 500])
+        self.grid = PaneGrid(self.source, self.target)
         centre = QWidget(self)
         layout = QVBoxLayout(centre)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -137,7 +135,7 @@ class MainWindow(QMainWindow):
         self.progress = ProgressLine(centre)
         layout.addWidget(self.error_bar)
         layout.addWidget(self.progress)
-        layout.addWidget(splitter, 1)
+        layout.addWidget(self.grid.root, 1)
         self.setCentralWidget(centre)
 
     def _make_docks(self) -> None:
@@ -181,7 +179,7 @@ class MainWindow(QMainWindow):
         self.setStatusBar(self.status)
 
     def _make_tools(self) -> None:
-        document, presenter = self.document, self.presenter
+        document = self.document
         self.desk = AnchorDesk(document)
 
         def may_anchor() -> bool:
@@ -190,15 +188,7 @@ class MainWindow(QMainWindow):
         self.source_tool = AnchorTool(self.source.view, is_target=False, may_anchor=may_anchor)
         self.target_tool = AnchorTool(self.target.view, is_target=True, may_anchor=may_anchor)
         for tool in (self.source_tool, self.target_tool):
-            tool.hovered.connect(presenter.hover)
-            tool.anchor_wanted.connect(document.add_anchor)
-            tool.anchor_selected.connect(document.select)
-            tool.taken_up.connect(self.desk.take_up)
-            tool.motion_wanted.connect(self.desk.move)
-            tool.drag_cancelled.connect(self.desk.cancel)
-            tool.group_wanted.connect(self.desk.add_group)
-            tool.anchor_unwanted.connect(document.remove_anchor)
-            document.opened.connect(tool.let_go)
+            self.connect_tool(tool)
         self.inspector.follow_pointer([self.source.view, self.target.view, *(dock.view for dock in self.maps)])
 
     def _connect(self) -> None:
@@ -207,6 +197,19 @@ class MainWindow(QMainWindow):
         self.target.style_chosen.connect(self.set_target_style)
         self.document.snapshot_taken.connect(self._extend_history)
         self.document.history_restarted.connect(self._restart_history)
+    def connect_tool(self, tool: AnchorTool) -> None:
+        """Let a mouse over one of the views set and move anchors."""
+        document = self.document
+        tool.hovered.connect(self.presenter.hover)
+        tool.anchor_wanted.connect(document.add_anchor)
+        tool.anchor_selected.connect(document.select)
+        tool.taken_up.connect(self.desk.take_up)
+        tool.motion_wanted.connect(self.desk.move)
+        tool.drag_cancelled.connect(self.desk.cancel)
+        tool.group_wanted.connect(self.desk.add_group)
+        tool.anchor_unwanted.connect(document.remove_anchor)
+        document.opened.connect(tool.let_go)
+
         self.document.opened.connect(lambda: self.histogram.set_mesh(self.document.mesh))
         self.histogram.redraw_wanted.connect(self.turns.all_stale)
         self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_quantities())
@@ -227,6 +230,7 @@ class MainWindow(QMainWindow):
         """Colour the source by a pattern of the map, or by a quantity."""
         self.colouring.set_style(self.source, style)
 
+        self.splitting.set_drawing(wanted)
     def _extend_history(self) -> None:
         snapshot = self.document.snapshot
         assert snapshot is not None
@@ -332,6 +336,7 @@ class MainWindow(QMainWindow):
             self.commands.wait()
             self.carried.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)
+            self.splitting.close()
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()
         super().closeEvent(event)

@@ -59,6 +59,10 @@ class PanelTurns(QObject):
         """`cost` tells the seconds that the last drawing of the panel took."""
         self.panels.append(Panel(widget, draw, cost))
 
+    def remove(self, widget: QWidget) -> None:
+        """A panel is gone."""
+        self.panels = [panel for panel in self.panels if panel.widget is not widget]
+
     def take_map(self) -> None:
         """A newer map goes to the main view: all panels are behind, one of them follows it."""
         for panel in self.panels:

@@ -14,6 +14,7 @@ from workbench.app.document import Document
 from workbench.app.handling.gizmo import gizmo_of
 from workbench.app.panel_turns import SOON, PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
+from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.brush_mark import BrushedParts
 from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import DisplayFrame, Geometry
@@ -51,6 +52,7 @@ class Presenter(QObject):
         self._panes = (source, target)
         self.source = source.view
         self.target = target.view
+        self.more: list[SplitPane] = []
         self._maps = maps
         self._colouring = colouring
         self._turns = turns
@@ -88,7 +90,7 @@ class Presenter(QObject):
 
     def clear(self) -> None:
         self._target_geometry = None
-        for view in (self.source, self.target):
+        for view in self._marked_views:
             view.clear()
             view.overlay.message = EMPTY if self._document.mesh is None else ""
         for dock in self._maps:
@@ -107,6 +109,9 @@ class Presenter(QObject):
         surface = self.source.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
         self._colouring.apply(self._panes[0])
+        for pane in self.more:
+            if pane.is_source:
+                self._show_in(pane, geometry)
 
     def _begin_target(self, positions: Floats) -> Geometry:
         """The first map of a mesh: its frame is kept, so that dragging does not move the picture."""
@@ -121,6 +126,9 @@ class Presenter(QObject):
             assert dock.view.surface is not None
             dock.view.surface.set_cut_edges(loaded.cut_edges)
         self._colouring.apply(self._panes[1])
+        for pane in self.more:
+            if not pane.is_source:
+                self._show_in(pane, geometry)
         return geometry
 
     def _start_again(self) -> None:
@@ -132,6 +140,52 @@ class Presenter(QObject):
         self.target.fit()
         for dock in self._maps:
             dock.view.fit()
+        for pane in self.more:
+            if not pane.is_source:
+                pane.view.fit()
+
+    # ------------------------------------------------------------------------------------------ panes of splits
+
+    def add_pane(self, pane: SplitPane) -> None:
+        """Draw one more view of source or target, in turn with the panels."""
+        self.more.append(pane)
+        self._colouring.add(pane)
+        self._turns.add(pane.view, partial(self._draw_pane, pane), lambda: pane.view.canvas.seconds)
+        geometry = self.source.geometry_shown if pane.is_source else self._target_geometry
+        pane.view.overlay.message = EMPTY if self._document.mesh is None else ""
+        if geometry is not None:
+            self._show_in(pane, geometry)
+            self._draw_pane(pane)
+            self._look_at_shell(pane.view)
+        if self._brushable is not None:
+            self._mark_brushed()
+        self._mark()
+
+    def remove_pane(self, pane: SplitPane) -> None:
+        """A view of a split is gone."""
+        self.more.remove(pane)
+        self._turns.remove(pane.view)
+        self._colouring.remove(pane)
+
+    def _show_in(self, pane: SplitPane, geometry: Geometry) -> None:
+        loaded = self._document.loaded
+        assert loaded is not None
+        surface = pane.view.show_geometry(geometry)
+        surface.set_cut_edges(loaded.cut_edges)
+        self._colouring.apply(pane)
+
+    def _draw_pane(self, pane: SplitPane) -> None:
+        """Bring a view of a split in line with the newest map; the points were written already."""
+        surface, geometry, snapshot = pane.view.surface, self._target_geometry, self._document.snapshot
+        if surface is None or geometry is None or snapshot is None:
+            return
+        surface.set_texture_positions(geometry.points)
+        if not pane.is_source:
+            pane.view.points_changed()
+            if not len(self._document.anchors):
+                pane.view.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+        self._colouring.paint(pane)
+        pane.view.refresh()
 
     # ------------------------------------------------------------------------------------------ maps
 
@@ -159,7 +213,12 @@ class Presenter(QObject):
 
     @property
     def _views(self) -> tuple[MeshView, ...]:
-        return (self.source, self.target, *(dock.view for dock in self._maps))
+        return (*self._marked_views, *(dock.view for dock in self._maps))
+
+    @property
+    def _marked_views(self) -> tuple[MeshView, ...]:
+        """Views that show anchors."""
+        return (self.source, self.target, *(pane.view for pane in self.more))
 
     def _show_faces(self) -> bool:
         """Draw what the look into a solid leaves of it; whether that is something else than before."""
@@ -179,15 +238,19 @@ class Presenter(QObject):
         """A solid is looked at in another way."""
         if self._faces is None:
             return
-        solid, look = self._volume.solid, self._volume.look
         if not self._show_faces():
             self._mark_brushed()
-        shell = solid.boundary.triangles if solid is not None and look.takes_away else None
         for view in self._views:
-            if view.surface is not None:
-                view.surface.ghost.show(shell, look.ghost, as_wires=look.is_wired)
+            self._look_at_shell(view)
         self._late_source.start()
         self._draw_soon()
+
+    def _look_at_shell(self, view: MeshView) -> None:
+        """Draw the boundary round what is left of a solid."""
+        solid, look = self._volume.solid, self._volume.look
+        shell = solid.boundary.triangles if solid is not None and look.takes_away else None
+        if view.surface is not None:
+            view.surface.ghost.show(shell, look.ghost, as_wires=look.is_wired)
 
     def _draw_soon(self) -> None:
         """The target now, the panels after it."""
@@ -250,15 +313,16 @@ class Presenter(QObject):
 
     def _draw_marks(self) -> None:
         """Paint the layers above anew; the pictures below stay as they are."""
-        self.source.overlay.update()
-        self.target.overlay.update()
+        for view in self._marked_views:
+            view.overlay.update()
 
     def _mark(self) -> None:
         """Bring anchors, the hovered vertex and the limiting simplex of both layers up to date."""
         document = self._document
         mesh, positions = document.mesh, document.positions
         anchors = document.shown_anchors
-        for view in (self.source, self.target):
+        targets = (self.target, *(pane.view for pane in self.more if not pane.is_source))
+        for view in self._marked_views:
             scene = view.overlay.scene
             geometry = view.geometry_shown
             scene.limiting = None
@@ -270,15 +334,13 @@ class Presenter(QObject):
                 continue
             scene.anchor_vertices = anchors.vertices
             scene.vertex_points = geometry.points[anchors.vertices]
-            if view is self.target:
-                scene.anchor_points = geometry.frame.to_display(anchors.target_array(positions.shape[1]))
-            else:
-                scene.anchor_points = scene.vertex_points
             scene.selected, scene.grouped = document.selected_anchors, frozenset(anchors.groups)
             scene.soft, scene.off = frozenset(anchors.weights), anchors.off
-            scene.gizmo = (
-                gizmo_of(scene.anchor_points[scene.is_selected], is_flat=geometry.is_flat) if view is self.target else None
-            )
+            if view in targets:
+                places = scene.anchor_points = geometry.frame.to_display(anchors.target_array(positions.shape[1]))
+                scene.gizmo = gizmo_of(places[scene.is_selected], is_flat=geometry.is_flat)
+            else:
+                scene.anchor_points, scene.gizmo = scene.vertex_points, None
             if 0 <= self._hovered < geometry.vertex_count and not document.is_held:
                 scene.hovered = self._hovered
                 scene.hovered_point = geometry.points[self._hovered]

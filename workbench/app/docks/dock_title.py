@@ -39,6 +39,12 @@ class DockTitle(QWidget):
             self._made.append((button, picture))
         self._set_icons()
 
+    def add(self, widget: QWidget) -> None:
+        """Put a widget before the buttons that every dock has."""
+        layout = self.layout()
+        assert isinstance(layout, QHBoxLayout)
+        layout.insertWidget(layout.count() - len(self._made), widget)
+
     def _set_icons(self) -> None:
         for button, picture in self._made:
             button.setIcon(self.style().standardIcon(picture, None, self._dock))

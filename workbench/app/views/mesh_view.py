@@ -131,9 +131,15 @@ class MeshView(QWidget):
     def size_in_pixels(self) -> Size:
         return max(self.width(), 1), max(self.height(), 1)
 
-    def set_camera(self, camera: ViewCamera) -> None:
+    @property
+    def shows_everything(self) -> bool:
+        """Whether it fits the whole mesh into the view, and goes on doing so."""
+        return self._wants_fit
+
+    def set_camera(self, camera: ViewCamera, *, fits: bool = False) -> None:
+        """Look in another way; `fits` where that is to show everything from now on."""
         self.camera = camera
-        self._wants_fit = False
+        self._wants_fit = fits
         camera.apply_to(self._renderer.GetActiveCamera())
         self.points_changed()
         self.refresh()
@@ -158,7 +164,7 @@ class MeshView(QWidget):
     def fit(self) -> None:
         """Bring the whole mesh into the view."""
         if self.geometry_shown is not None:
-            self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels))
+            self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels), fits=True)
         self._wants_fit = True
 
     def fit_if_it_left(self, least: float = 0.45) -> None:

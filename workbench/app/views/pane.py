@@ -29,14 +29,16 @@ class ViewPane(QWidget):
     ) -> None:
         """`styles` are the patterns that are offered beside the quantities of the book: id -> label."""
         super().__init__(parent)
-        self._styles = frozenset(styles)
+        self.styles = dict(styles)
         self._layout = QVBoxLayout(self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(0)
-        header = QHBoxLayout()
+        self.header = QWidget(self)
+        header = QHBoxLayout(self.header)
         header.setContentsMargins(10, 4, 6, 4)
         header.setSpacing(6)
-        name = QLabel(f"<b>{title}</b>", self)
+        self.title = title
+        self.name = QLabel(f"<b>{title}</b>", self)
         self.caption = ElidedLabel("", self)
         self.caption.setObjectName("citation")
         self.caption.setMinimumWidth(10)
@@ -44,15 +46,21 @@ class ViewPane(QWidget):
         self.chooser.chosen.connect(self.style_chosen)
         self.chooser.setMinimumContentsLength(21)
         self.chooser.setMinimumWidth(120)  # in a small window it gives way
-        header.addWidget(name)
+        header.addWidget(self.name)
         header.addWidget(self.caption, 1)
         header.addWidget(self.chooser)
-        self._layout.addLayout(header)
+        self._layout.addWidget(self.header)
         self.view = MeshView(theme, self)
         self._layout.addWidget(self.view, 1)
         self.legend = ColourLegend(book.range_of(book.quantities[0].id), self)
         self.legend.hide()
         self._layout.addWidget(self.legend)
+
+    def add_to_header(self, widget: QWidget) -> None:
+        """Put a widget at the end of the title line."""
+        layout = self.header.layout()
+        assert layout is not None
+        layout.addWidget(widget)
 
     def add_tools(self, tools: QWidget) -> None:
         """Put a row of controls between the title and the view."""
@@ -64,7 +72,7 @@ class ViewPane(QWidget):
 
     def offers(self, style: str) -> bool:
         """Whether a pattern is one of this view's."""
-        return style in self._styles
+        return style in self.styles
 
     def set_style(self, id: str) -> None:
         self.chooser.show_choice(id)

@@ -27,8 +27,24 @@ class LinkedViews(QObject):
         self._later.setSingleShot(True)
         self._later.setInterval(PAUSE)
         self._later.timeout.connect(self._turn_small)
+        self._deeds: dict[MeshView, Callable[[], None]] = {}
         for view in (*self._large, *self._small):
-            view.camera_changed.connect(lambda v=view: self._turned(v))
+            self._follow(view)
+
+    def _follow(self, view: MeshView) -> None:
+        self._deeds[view] = lambda: self._turned(view)
+        view.camera_changed.connect(self._deeds[view])
+
+    def add(self, view: MeshView) -> None:
+        """One more view that follows when the hand pauses, and that the others follow."""
+        self._small = (*self._small, view)
+        self._follow(view)
+
+    def remove(self, view: MeshView) -> None:
+        """A view is gone."""
+        view.camera_changed.disconnect(self._deeds.pop(view))
+        self._small = tuple(other for other in self._small if other is not view)
+        self._latest = self._large[-1] if self._latest is view else self._latest
 
     def _turned(self, view: MeshView) -> None:
         if self._is_passing_on or not self._is_wanted():

@@ -1,0 +1,269 @@
+"""Splitting the views of the window: what the menus do, and the panes that come and go."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QMenu, QWidget
+
+from workbench.app.anchor_tool import AnchorTool
+from workbench.app.splitting.camera_links import CameraLinks
+from workbench.app.splitting.leaf import Leaf
+from workbench.app.splitting.pane_grid import CLOSED, PaneGrid, Side
+from workbench.app.splitting.pane_tools import PaneTools
+from workbench.app.splitting.split_pane import SIDES, SplitPane
+from workbench.app.views.mesh_view import MeshView
+
+if TYPE_CHECKING:
+    from workbench.app.docks.colour_map_dock import ColourMapDock
+    from workbench.app.main_window import MainWindow
+
+MOST_PANES = 6
+"""Panes that may be split off: with source and target they make eight views, beside the colour maps."""
+FULL = f"There are {MOST_PANES + 2} views, as many as there can be; close one first."
+
+
+class Splitting(QObject):
+    """Every view of the window as a leaf of a grid: one grid in the centre, one in each colour map.
+
+    Source and target are hidden when they are closed, as everything else is built on them; panes are gone.
+    """
+
+    changed = Signal()
+    """Other panes, or other links, than before."""
+    pane_made = Signal(object)
+    """A `Leaf` that is new"""
+    pane_gone = Signal(object)
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self.links = CameraLinks()
+        self.grids: dict[str, PaneGrid] = {"centre": window.grid}
+        self._leaves: dict[str, Leaf] = {}
+        self.active = "target"
+        for name, pane, is_source in (("source", window.source, True), ("target", window.target, False)):
+            pane.setObjectName(name)
+            leaf = Leaf(name, pane, pane.view, is_source, pane)
+            pane.add_to_header(self._add(leaf, pane.header, is_linked=True))
+        for dock in window.maps:
+            self._add_dock(dock)
+        window.theme_switch.changed.connect(self.set_theme)
+        actions = window.actions_by_name
+        actions["split-right"].triggered.connect(lambda _=False: self.split(self.active, "right"))
+        actions["split-below"].triggered.connect(lambda _=False: self.split(self.active, "below"))
+        actions["close-view"].triggered.connect(lambda _=False: self.close_view(self.active))
+
+    def _add_dock(self, dock: ColourMapDock) -> None:
+        name = dock.objectName()
+        body = dock.widget()
+        body.setObjectName(name)
+        grid = self.grids[name] = PaneGrid(body)
+        dock.setWidget(grid.root)
+        title = dock.titleBarWidget()
+        title.add(self._add(Leaf(name, body, dock.view, False, None), title, is_linked=False))  # type: ignore[attr-defined]
+
+    def _add(self, leaf: Leaf, line: QWidget, *, is_linked: bool) -> PaneTools:
+        """The buttons for a view, whose title stands in `line`."""
+        self._leaves[leaf.name] = leaf
+        tools = PaneTools(partial(self.fill_menu, leaf.name), self._window.theme, line)
+        leaf.tools = tools
+        self.links.add(leaf.view, is_source=leaf.is_source, is_on=is_linked)
+        tools.chain.setChecked(is_linked)
+        tools.link_toggled.connect(partial(self._link, leaf))
+        leaf.view.overlay.pressed.connect(partial(self._activate, leaf.name))
+        return tools
+
+    def _activate(self, name: str, _: object = None) -> None:
+        self.active = name
+
+    def _link(self, leaf: Leaf, on: bool) -> None:
+        self.links.set_on(leaf.view, on)
+        self.changed.emit()
+
+    # ------------------------------------------------------------------------------------------ what there is
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        """All views, source and target first."""
+        return tuple(self._leaves.values())
+
+    @property
+    def panes(self) -> tuple[SplitPane, ...]:
+        """The panes that were split off."""
+        return tuple(leaf.pane for leaf in self.leaves if isinstance(leaf.pane, SplitPane))
+
+    def __getitem__(self, name: str) -> Leaf:
+        return self._leaves[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._leaves
+
+    def leaf_of(self, view: MeshView) -> Leaf:
+        return next(leaf for leaf in self.leaves if leaf.view is view)
+
+    def _grid_of(self, leaf: Leaf) -> PaneGrid:
+        return next(grid for grid in self.grids.values() if leaf.widget in grid)
+
+    def is_visible(self, name: str) -> bool:
+        """Whether a view of the centre has not been closed."""
+        return self._leaves[name].widget.property(CLOSED) is not True
+
+    # ------------------------------------------------------------------------------------------ splitting
+
+    def split(self, name: str, side: Side) -> SplitPane | None:
+        """A new view beside one, which shows the same at first; None where there are as many as can be."""
+        if len(self.panes) >= MOST_PANES:
+            self._window.status.say(FULL)
+            return None
+        leaf = self._leaves[name]
+        pane = self.make(self._free_name(), "source" if leaf.is_source else "target")
+        self._grid_of(leaf).split(leaf.widget, side, pane)
+        self._begin(pane, self._shown_in(leaf))
+        if leaf.view.geometry_shown is not None:
+            pane.view.set_camera(replace(leaf.view.camera), fits=leaf.view.shows_everything)
+            if leaf.view.shows_everything:
+                pane.view.fit()
+        self.active = pane.objectName()
+        self.changed.emit()
+        return pane
+
+    def _free_name(self) -> str:
+        return next(name for i in range(1, MOST_PANES + 2) if (name := f"pane-{i}") not in self._leaves)
+
+    def _shown_in(self, leaf: Leaf) -> str:
+        """Name of a pattern, or id of a quantity."""
+        if leaf.pane is not None:
+            return self._window.colouring.style_of(leaf.pane)
+        return next(dock.quantity for dock in self._window.maps if dock.objectName() == leaf.name)
+
+    def make(self, name: str, side: str) -> SplitPane:
+        """The one factory of panes; `_begin` then fills what was put into a grid."""
+        window = self._window
+        like = window.source if side == "source" else window.target
+        pane = SplitPane(name, side, like.styles, window.quantities, window.theme, window)
+        leaf = Leaf(name, pane, pane.view, pane.is_source, pane)
+        pane.add_to_header(self._add(leaf, pane.header, is_linked=True))
+        pane.style_chosen.connect(lambda style: window.colouring.set_style(pane, style))
+        pane.side_chosen.connect(partial(self._change_side, name))
+        return pane
+
+    def _begin(self, pane: SplitPane, shown: str) -> None:
+        """Draw in a pane, and let the mouse at it."""
+        window, leaf = self._window, self._leaves[pane.objectName()]
+        if pane.offers(shown) or shown in window.quantities:
+            pane.set_style(shown)
+        leaf.tool = AnchorTool(
+            pane.view, is_target=not pane.is_source, may_anchor=lambda: window.document.positions is not None
+        )
+        window.connect_tool(leaf.tool)
+        window.presenter.add_pane(pane)
+        window.look.linked.add(pane.view)
+        self.pane_made.emit(leaf)
+
+    def _change_side(self, name: str, side: str) -> None:
+        """Show the source in the place of the target, or the other way round."""
+        leaf = self._leaves[name]
+        if side not in SIDES or leaf.is_source is (side == "source"):
+            return
+        shown = self._shown_in(leaf)
+        grid = self._grid_of(leaf)
+        self._end(leaf)
+        pane = self.make(name, side)
+        grid.replace(leaf.widget, pane)
+        leaf.widget.deleteLater()
+        self._begin(pane, shown)
+        partner = self._leaves[side].view
+        if partner.geometry_shown is not None:
+            pane.view.set_camera(partner.camera, fits=partner.shows_everything)
+        self.changed.emit()
+
+    def close_view(self, name: str) -> None:
+        """Close a view, but for the last one of the centre."""
+        leaf = self._leaves[name]
+        in_centre = leaf.widget in self.grids["centre"]
+        if in_centre and sum(self.is_visible(other.objectName()) for other in self.grids["centre"].leaves()) == 1:
+            self._window.status.say("This is the last view; split it before it is closed.")
+            return
+        if leaf.pane is None:
+            next(dock for dock in self._window.maps if dock.objectName() == name).close()
+        elif isinstance(leaf.pane, SplitPane):
+            grid = self._grid_of(leaf)
+            self._end(leaf)
+            grid.take(leaf.widget)
+            leaf.widget.deleteLater()
+        else:
+            self.set_visible(name, False)
+        if self.active == name:
+            self.active = next(other.objectName() for other in self.grids["centre"].leaves() if other.isVisible())
+        self.changed.emit()
+
+    def set_visible(self, name: str, visible: bool) -> None:
+        """Show source or target again, or hide it; the last view of the centre stays."""
+        widget = self._leaves[name].widget
+        widget.setProperty(CLOSED, not visible)
+        widget.setVisible(visible)
+        self._window.turns.all_stale()
+        self.changed.emit()
+
+    def _end(self, leaf: Leaf) -> None:
+        """Let go of a pane; its widget is still where it was."""
+        assert isinstance(leaf.pane, SplitPane)
+        self.pane_gone.emit(leaf)
+        window = self._window
+        window.look.linked.remove(leaf.view)
+        window.presenter.remove_pane(leaf.pane)
+        self.links.remove(leaf.view)
+        del self._leaves[leaf.name]
+        if leaf.tool is not None:
+            leaf.tool.let_go()
+            window.document.opened.disconnect(leaf.tool.let_go)
+        leaf.view.close_view()
+
+    # ------------------------------------------------------------------------------------------ menus
+
+    def fill_menu(self, name: str, menu: QMenu) -> None:
+        """What can be done to a view."""
+        menu.addAction("Split &right").triggered.connect(lambda: self.split(name, "right"))
+        menu.addAction("Split &below").triggered.connect(lambda: self.split(name, "below"))
+        menu.addAction("&Close this view").triggered.connect(lambda: self.close_view(name))
+        menu.addSeparator()
+        chain = menu.addAction("&Link the camera")
+        chain.setCheckable(True)
+        tools = self._leaves[name].tools
+        assert tools is not None
+        chain.setChecked(tools.chain.isChecked())
+        chain.toggled.connect(tools.chain.setChecked)
+        menu.addAction("&Fit").triggered.connect(self._leaves[name].view.fit)
+
+    def fill_views(self, menu: QMenu) -> None:
+        """Source and target, to be shown again."""
+        menu.clear()
+        for name, text in SIDES.items():
+            action = menu.addAction(text)
+            action.setCheckable(True)
+            action.setChecked(self.is_visible(name))
+            action.toggled.connect(lambda on, n=name: self.set_visible(n, True) if on else self.close_view(n))
+
+    # ------------------------------------------------------------------------------------------ end
+
+    def set_theme(self, theme: Any) -> None:
+        for leaf in self.leaves:
+            if leaf.tools is not None:
+                leaf.tools.set_theme(theme)
+        for pane in self.panes:
+            pane.set_theme(theme)
+
+    def set_drawing(self, wanted: bool) -> None:
+        for pane in self.panes:
+            pane.view.is_drawing = wanted
+
+    def close(self) -> None:
+        """Before the window ends."""
+        self.links.stop()
+        self._window.theme_switch.changed.disconnect(self.set_theme)
+        for pane in self.panes:
+            pane.view.close_view()
