@@ -17,7 +17,7 @@ import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the OpenGL classes behind vtkRenderWindow
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QImage, QOffscreenSurface, QOpenGLContext, QPainter, QPaintEvent, QTransform
+from PySide6.QtGui import QColor, QImage, QOffscreenSurface, QOpenGLContext, QPainter, QPaintEvent, QTransform
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
@@ -99,12 +99,20 @@ class MemoryCanvas(QWidget):
 
     def _draw(self, width: int, height: int) -> QImage:
         memory = self.painter(width, height) if self.painter is not None else None
+        if memory is None and not self.renderer.GetViewProps().GetNumberOfItems():
+            return self._blank(width, height)
         if memory is None:
             self._window.SetSize(width, height)
             self._window.Render()
             self._window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, self._pixels)
             memory = vtk_to_numpy(self._pixels)
         return QImage(memory.data, width, height, 4 * width, QImage.Format.Format_RGBX8888)
+
+    def _blank(self, width: int, height: int) -> QImage:
+        """The background alone, without VTK: the first picture of a window waits for five of these."""
+        image = QImage(width, height, QImage.Format.Format_RGBX8888)
+        image.fill(QColor.fromRgbF(*self.renderer.GetBackground()))
+        return image
 
     def close_canvas(self) -> None:
         window, self._window = self._window, None

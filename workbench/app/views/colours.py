@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
 from workbench.app.theme import INVERTED, Colour
+from workbench.app.views.colour_tables import colour_table
 
 TRIMMED = 34
 """Entries left out at the pale end, which would be lost on a white background."""
@@ -20,10 +21,7 @@ def distortion_colours() -> NDArray[np.float64]:
 
     Perceptually uniform (Kovesi 2015, CET-L19). It has no yellow, which stands for inverted simplices.
     """
-    import colorcet  # late: the first frame needs no colours
-
-    table = np.array([_rgb(text) for text in colorcet.palette["CET_L19"]])
-    return table[TRIMMED:]
+    return colour_table("CET_L19")[TRIMMED:]
 
 
 @lru_cache(maxsize=1)
@@ -32,13 +30,7 @@ def diverging_colours() -> NDArray[np.float64]:
 
     Perceptually uniform on both sides (Kovesi 2015, CET-D1); no yellow in it either.
     """
-    import colorcet
-
-    return np.array([_rgb(text) for text in colorcet.palette["CET_D1"]])
-
-
-def _rgb(text: str) -> list[float]:
-    return [int(text[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    return colour_table("CET_D1")
 
 
 def lookup_table(
