@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from workbench.app.quantities import Quantity
 from workbench.core.arrays import Floats, Integers
 
 
@@ -24,3 +25,15 @@ def displacements(positions: Floats, reference: Floats, simplices: Integers) -> 
     """How far the corners of each simplex (m, d+1) lie from where the reference has them, on the average: (m,)."""
     distances = np.linalg.norm(positions - reference, axis=1)
     return np.asarray(distances[simplices].mean(axis=1))
+
+
+def displacement_from(name: str) -> Quantity:
+    """How far a map lies from the one called `name`, as colours."""
+    what = "part of the diameter of the source"
+    return Quantity("displacement", f"Displacement from {name}", "", what, 0.0, least_span=1e-9)
+
+
+def difference_to(name: str, quantity: Quantity) -> Quantity:
+    """By how much a quantity differs from what it is on the map called `name`, with other colours for more and for less."""
+    label = f"{quantity.title}, difference to {name}"
+    return Quantity("difference", label, "", quantity.formula, None, least_span=1e-9, centre=0.0)

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from workbench.app.colour_range import ColourRange
 from workbench.app.quantities import Quantity
 from workbench.app.quantity_book import QuantityBook
-from workbench.app.race.difference import aligned, displacements
+from workbench.app.race.difference import aligned, difference_to, displacement_from, displacements
 from workbench.app.race.race_model import RaceModel
 
 Mode = Literal["own", "displacement", "difference"]
@@ -79,11 +79,7 @@ class RaceColours(QObject):
         if self.mode == "own":
             return self.quantity
         name = self._model.records[self.reference].label
-        if self.mode == "displacement":
-            what = "part of the diameter of the source"
-            return Quantity("displacement", f"Displacement from {name}", "", what, 0.0, least_span=1e-9)
-        label = f"{self.quantity.title}, difference to {name}"
-        return Quantity("difference", label, "", self.quantity.formula, None, least_span=1e-9, centre=0.0)
+        return displacement_from(name) if self.mode == "displacement" else difference_to(name, self.quantity)
 
     # ------------------------------------------------------------------------------------------ values
 
