@@ -19,6 +19,7 @@ from workbench.app.views.canvas import CardCanvas, MemoryCanvas
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
+from workbench.app.views.textures import Texture
 from workbench.core.mesh import Mesh
 
 CANVASES = {"memory": MemoryCanvas, "card": CardCanvas}
@@ -137,6 +138,6 @@ def test_what_is_more_than_flat_colours_is_left_to_opengl(make_view) -> None:
     surface.set_values(None, inverted)
     assert surface.flat_colours() is None  # their outlines
     surface.set_values(None, ~inverted & False)
-    surface.show_pattern("checkerboard")
+    surface.show_pattern(Texture("checkerboard"))
     assert surface.flat_colours() is None
     assert make_view("memory", bumpy_mesh()).surface.flat_colours() is None  # light

@@ -85,7 +85,7 @@ def test_what_was_closed_before_the_methods_were_found_is_kept(make_window: Wind
         "no json, at all",
         "[1, 2]",
         json.dumps({"views": 3, "scales": [1], "histogram": None, "convergence": {"abscissa": 17}, "inspector": {"page": "x"}}),
-        json.dumps({"views": {"source": "gone", "target": "checkerboard", "histogram": {"formula": "import os"}, "x": "y"}}),
+        json.dumps({"views": {"source": "gone", "target": "marble", "histogram": {"formula": "import os"}, "x": "y"}}),
         json.dumps({"views": {"histogram": {"formula": "t*det", "parameters": {"t": "1"}}, "map-dirichlet": [1]}}),
         json.dumps({"scales": {"det": 3, "gone": {"logarithmic": 1}, "sigma1": {"logarithmic": "yes"}}}),
     ],

@@ -49,6 +49,8 @@ TEXTS: dict[str, ActionText] = {
     "split-below": ActionText("Split &below", ("Ctrl+Alt+\\",), "One more view below the one that was clicked last"),
     "close-view": ActionText("Close vie&w", ("Ctrl+W",), "Close the view that was clicked last; View > Views has them again"),
     "lock": ActionText("&Hold colour ranges", (), "Keep the ranges of the colour bars as they are", checkable=True),
+    "picture": ActionText("&Picture…", (), "Lay a PNG or JPEG over the source; it can be dropped on a view, too"),
+    "pattern": ActionText("&Size and turn…", (), "How large patterns are, how they are turned, where they are even"),
     "unbrush": ActionText("Clear &brush", ("Esc",), "No simplex is marked any longer (Esc)"),
     "cut": ActionText("&Cut the solid", ("C",), "A plane across the line of sight, or none", checkable=True),
     "uncut": ActionText("Show &all of the solid", ("Shift+C",), "Neither cut, peeled nor pulled apart (Shift+C)"),

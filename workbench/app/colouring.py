@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject
 from workbench.app.docks.quantity_dock import QuantityDock
 from workbench.app.document import Document
 from workbench.app.quantity_book import QuantityBook
+from workbench.app.texturing.texturing import Texturing
 from workbench.app.views.pane import ViewPane
 from workbench.app.views.textures import PATTERNS
 from workbench.engine.messages import Snapshot
@@ -26,13 +27,16 @@ class Colouring(QObject):
         book: QuantityBook,
         panes: Iterable[ViewPane],
         panels: Iterable[QuantityDock],
+        texturing: Texturing,
     ) -> None:
         super().__init__()
+        self._texturing = texturing
         self._document = document
         self._book = book
         self._styles = {pane: pane.chooser.current for pane in panes}
         self._panels = list(panels)
         book.range_changed.connect(self._range_changed)
+        texturing.changed.connect(self._texture_changed)
         document.opened.connect(self._begin)
         document.session_changed.connect(self._take_choice)
         book.listed.connect(self._take_choice)
@@ -40,10 +44,6 @@ class Colouring(QObject):
         for panel in self._panels:
             panel.quantity_changed.connect(self.watch)
             panel.visibilityChanged.connect(lambda _: self.watch())
-
-    def style_of(self, pane: ViewPane) -> str:
-        """Name of a pattern, or id of a quantity."""
-        return self._styles[pane]
 
     def add(self, pane: ViewPane) -> None:
         """Colour one more view."""
@@ -55,6 +55,10 @@ class Colouring(QObject):
         """A view is gone."""
         del self._styles[pane]
         self.watch()
+
+    def style_of(self, pane: ViewPane) -> str:
+        """Name of a pattern, or id of a quantity."""
+        return self._styles[pane]
 
     def set_style(self, pane: ViewPane, style: str) -> None:
         """Colour a view by a pattern or by a quantity; its values come with the next snapshot."""
@@ -95,7 +99,7 @@ class Colouring(QObject):
         is_pattern = style in PATTERNS
         pane.show_colours(None if is_pattern else self._book.range_of(style))
         if surface is not None and is_pattern:
-            surface.show_pattern(style)  # type: ignore[arg-type]
+            surface.show_pattern(self._texturing.texture(style))  # type: ignore[arg-type]
         self.paint(pane)
         pane.view.refresh()
 
@@ -104,6 +108,7 @@ class Colouring(QObject):
         snapshot, surface = self._document.shown, pane.view.surface
         if snapshot is None or surface is None:
             return
+        surface.lay_texture()
         style = self._styles[pane]
         values = None if style in PATTERNS else snapshot.fields.get(self._book.range_of(style).quantity.field)
         surface.set_values(values, snapshot.inverted)
@@ -124,6 +129,11 @@ class Colouring(QObject):
             self._book.set_dimension(self._document.mesh.dimension)
         for colour_range in self._book.ranges():
             colour_range.forget()
+
+    def _texture_changed(self) -> None:
+        for pane, style in self._styles.items():
+            if style in PATTERNS:
+                self.apply(pane)
 
     def _range_changed(self, id: str) -> None:
         for pane, style in self._styles.items():

@@ -45,14 +45,16 @@ from workbench.app.splitting.splitting import Splitting
 from workbench.app.status_line import StatusLine
 from workbench.app.style import style_sheet
 from workbench.app.switches import Switches
+from workbench.app.texturing.texture_desk import TextureDesk
+from workbench.app.texturing.texturing import Texturing
 from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
+from workbench.app.views.textures import PATTERN_LABELS
 from workbench.app.volumes.look_tools import LookTools
 from workbench.app.volumes.volume_view import VolumeView
 
-SOURCE_STYLES = {"checkerboard": "Checkerboard of the map", "grid": "Grid of the map", "plain": "Plain"}
-TARGET_STYLES = {"plain": "Plain"}
+TARGET_STYLES = {"plain": PATTERN_LABELS["plain"]} | PATTERN_LABELS
 RIGHT, BOTTOM, LEFT = (
     Qt.DockWidgetArea.RightDockWidgetArea,
     Qt.DockWidgetArea.BottomDockWidgetArea,
@@ -89,7 +91,9 @@ class MainWindow(QMainWindow):
         self._make_docks()
         self._make_status()
         self.turns = PanelTurns()
-        self.colouring = Colouring(self.document, self.quantities, (self.source, self.target), (*self.maps, self.histogram))
+        self.texturing = Texturing(self.source.view, self.target.view)
+        panels = (*self.maps, self.histogram)
+        self.colouring = Colouring(self.document, self.quantities, (self.source, self.target), panels, self.texturing)
         self.volume = VolumeView(self.document, self.quantities, self.brush)
         self.presenter = Presenter(
             self.document, self.source, self.target, self.maps, self.colouring, self.turns, self.brush, self.volume
@@ -104,6 +108,7 @@ class MainWindow(QMainWindow):
         self.anchor_menu = AnchorMenu(self)
         self.sessions = SessionFiles(self)
         self.autosave = Autosave(self)
+        self.textures = TextureDesk(self)
         self.commands = Commands(self)
         fill_menus(self)
         fill_tool_bar(self)
@@ -124,7 +129,7 @@ class MainWindow(QMainWindow):
     # ------------------------------------------------------------------------------------------ making
 
     def _make_centre(self) -> None:
-        self.source = ViewPane("Source", SOURCE_STYLES, self.quantities, self.theme, self)
+        self.source = ViewPane("Source", PATTERN_LABELS, self.quantities, self.theme, self)
         self.target = ViewPane("Target", TARGET_STYLES, self.quantities, self.theme, self)
         self.grid = PaneGrid(self.source, self.target)
         centre = QWidget(self)
@@ -289,6 +294,8 @@ class MainWindow(QMainWindow):
             self.document.open_sample(source.removeprefix("sample:"))
         elif self.sessions.takes(source):
             self.sessions.open(str(Path(source).expanduser()))
+        elif self.textures.takes(source):
+            self.textures.show_picture(source)
         else:
             self.document.open(str(Path(source).expanduser()))
 
@@ -300,7 +307,10 @@ class MainWindow(QMainWindow):
         files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
         if files:
             event.acceptProposedAction()
-            self.open(files[0])
+            if self.textures.takes(files[0]) and not self.sessions.takes(files[0]):
+                self.textures.show_picture(files[0], self.textures.pane_at(event.position().toPoint()))
+            else:
+                self.open(files[0])
 
     # ------------------------------------------------------------------------------------------ end
 

@@ -68,6 +68,7 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
         view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()
+    window.textures.fill_menu(view.addMenu("Pa&ttern"))
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")
     for dock in window.docks:

@@ -76,6 +76,7 @@ class ViewMemory:
             },
             "inspector": {"page": window.inspector.tabs.currentIndex()},
             "solid": window.volume.kept(),
+            "pattern": window.texturing.kept(),
         }
 
     # ------------------------------------------------------------------------------------------ taking up
@@ -90,6 +91,7 @@ class ViewMemory:
         _choose(window.convergence.abscissa, curves.get("abscissa"))
         _choose(window.inspector.tabs, _table(state, "inspector").get("page"))
         window.volume.take_kept(_table(state, "solid"))
+        window.texturing.take_kept(_table(state, "pattern"))
         self._waiting = {name: words for name, words in _table(state, "views").items() if name in self._begins}
         self._scales = _table(state, "scales")
         self._go_on()

@@ -13,13 +13,12 @@ from workbench.app.colour_range import ColourRange
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views.actors import THROUGH, actor_of, cells, line_actor, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
-from workbench.app.views.camera import Points
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import lookup_table, single_colour
 from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.ghost import Ghost
-from workbench.app.views.textures import TILES_ACROSS, Pattern, pattern_texture
+from workbench.app.views.textures import Texture, repeating
 from workbench.core.arrays import Booleans, Integers
 
 EDGES_UP_TO = 12_000
@@ -44,7 +43,7 @@ class Surface:
         self._latest: tuple[NDArray[Any] | None, Booleans] | None = None
         self._texture_points: NDArray[np.float32] | None = None
         self._texture_data: Any = None
-        self._pattern: Pattern | None = None
+        self._texture: Texture | None = None
         self._mapper = mapper_of(self._polydata)
         self._mapper.SetScalarModeToUseCellData()
         self._mapper.SetColorModeToMapScalars()
@@ -76,6 +75,7 @@ class Surface:
         self._make_scalars()
         if self._texture_points is not None:
             self._make_texture_points()
+            self.lay_texture()
         if self._latest is not None:
             self.set_values(*self._latest)
 
@@ -106,8 +106,8 @@ class Surface:
         self._theme = theme
         self.ghost.set_theme(theme)
         self._actor.GetProperty().SetEdgeColor(*theme.edges)
-        if self._pattern is not None:
-            self.show_pattern(self._pattern)
+        if self._texture is not None:
+            self.show_pattern(self._texture)
         elif self._is_plain:
             self.show_plain()
 
@@ -130,20 +130,21 @@ class Surface:
         low, high, is_logarithmic = colour_range.low, colour_range.high, colour_range.is_logarithmic
         self._mapper.SetLookupTable(lookup_table(colour_range.colours(), low, high, logarithmic=is_logarithmic))
 
-    def show_pattern(self, pattern: Pattern) -> None:
-        """A pattern laid over the triangles; `set_texture_positions` says where."""
-        if pattern == "plain":
+    def show_pattern(self, texture: Texture) -> None:
+        """A pattern laid over the triangles; `lay_texture` says where."""
+        if texture.pattern == "plain":
             self.show_plain()
             return
         self._is_plain = False
-        self._pattern = pattern
+        self._texture = texture
         self._actor.GetProperty().SetEdgeOpacity(0.25)
         if self._texture_points is None:
             self._make_texture_points()
-        self._actor.SetTexture(pattern_texture(pattern, self._theme.is_dark, draws_with_card()))
+        self._actor.SetTexture(repeating(texture.tile(self._theme.is_dark), draws_with_card()))
         self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
+        self.lay_texture()
 
     def _make_texture_points(self) -> None:
         self._texture_points = np.zeros((len(self.geometry.points), 2), np.float32)
@@ -151,25 +152,32 @@ class Surface:
         self._polydata.GetPointData().SetTCoords(self._texture_data)
 
     def _drop_texture(self) -> None:
-        self._pattern = None
+        self._texture = None
         self._actor.SetTexture(None)
 
     @property
     def has_texture(self) -> bool:
-        return self._pattern is not None
+        return self._texture is not None
 
-    def set_texture_positions(self, shown: Points) -> None:
-        """Take the map in units of its display (n, 2), where its diameter is 1, as texture coordinates."""
-        if self._texture_points is None:
+    def set_texture_positions(self, _: Any) -> None:
+        """Lay the texture where its points are now."""
+        self.lay_texture()
+
+    def lay_texture(self) -> None:
+        """Lay the texture where its points are now."""
+        texture, places = self._texture, self._texture_points
+        if texture is None or places is None:
             return
-        np.multiply(shown[:, :2], TILES_ACROSS, out=self._texture_points, casting="same_kind")
-        self._texture_data.Modified()
+        points = self.geometry.points if texture.points is None else texture.points()
+        if points is not None and len(points) == len(places):
+            np.copyto(places, texture.coordinates(points))
+            self._texture_data.Modified()
 
     def set_values(self, values: NDArray[Any] | None, inverted: Booleans) -> None:
         """One number a simplex (m,), or None for plain; `inverted` (m,) bool are drawn yellow, outlined dark."""
         self._latest = (values, inverted)
         owners = self.geometry.faces.simplices
-        if values is None or self._pattern is not None or self._is_plain:
+        if values is None or self.has_texture or self._is_plain:
             self._values[:] = 0.0
         else:
             np.copyto(self._values, values if owners is None else values[owners], casting="same_kind")

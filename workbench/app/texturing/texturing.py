@@ -1,0 +1,94 @@
+"""How patterns lie on the views of the window, and which picture is one of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from workbench.app.texturing.picture_file import read_picture
+from workbench.app.views.camera import Points
+from workbench.app.views.mesh_view import MeshView
+from workbench.app.views.textures import Pattern, Pixels, Texture
+from workbench.core.errors import WorkbenchError
+
+LARGEST = 20.0
+"""Factor of the usual size up to which tiles can be chosen; the inverse is the smallest."""
+
+
+@dataclass(frozen=True)
+class PatternLayout:
+    """How patterns lie: `size` and `degrees` as in `Texture`, `of_source` where they are laid out in the source."""
+
+    size: float = 1.0
+    degrees: float = 0.0
+    of_source: bool = False
+    picture: str = ""
+
+
+class Texturing(QObject):
+    """One layout for all views, so that a place of the source and its image carry the same mark."""
+
+    changed = Signal()
+
+    def __init__(self, source: MeshView, target: MeshView) -> None:
+        super().__init__()
+        self._source, self._target = source, target
+        self.layout = PatternLayout()
+        self._picture: Pixels | None = None
+
+    @property
+    def has_picture(self) -> bool:
+        return self._picture is not None
+
+    def choose(self, **changes: Any) -> None:
+        """Other values of the layout, all but the picture."""
+        layout = replace(self.layout, **changes)
+        if layout != self.layout:
+            self.layout = layout
+            self.changed.emit()
+
+    def take_picture(self, path: str) -> None:
+        """Take the picture of a file. Raises `WorkbenchError` where it is none."""
+        self._picture = read_picture(path)
+        self.layout = replace(self.layout, picture=path)
+        self.changed.emit()
+
+    def texture(self, pattern: Pattern) -> Texture:
+        """A pattern as it lies on every view."""
+        layout = self.layout
+        return Texture(pattern, layout.size, layout.degrees, self._picture, self._points)
+
+    def _points(self) -> Points | None:
+        """Points of the source or the map; those of a surface in space have no flat place of their own."""
+        source, target = self._source.geometry_shown, self._target.geometry_shown
+        if source is not None and target is not None and self.layout.of_source:
+            is_surface = source.simplices.shape[1] == 3 and not source.is_flat
+            return target.points if is_surface else source.points
+        return None if target is None else target.points
+
+    # ------------------------------------------------------------------------------------------ memory
+
+    def kept(self) -> dict[str, Any]:
+        """What is there again at the next start, as plain values."""
+        return vars(self.layout).copy()
+
+    def take_kept(self, kept: Mapping[str, Any]) -> None:
+        """Take up what `kept` gave; values of another kind, and a picture that is gone, are passed over."""
+        size, degrees, path = kept.get("size"), kept.get("degrees"), kept.get("picture")
+        self.choose(
+            size=float(size) if _is_within(size, 1.0 / LARGEST, LARGEST) else 1.0,
+            degrees=float(degrees) if _is_within(degrees, -360.0, 360.0) else 0.0,
+            of_source=kept.get("of_source") is True,
+        )
+        if isinstance(path, str) and path:
+            try:
+                self.take_picture(path)
+            except WorkbenchError:
+                return
+
+
+def _is_within(value: object, low: float, high: float) -> Any:
+    return isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
