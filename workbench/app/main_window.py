@@ -108,6 +108,7 @@ class MainWindow(QMainWindow):
         self.anchor_menu = AnchorMenu(self)
         self.sessions = SessionFiles(self)
         self.autosave = Autosave(self)
+        self.splitting = Splitting(self)
         self.textures = TextureDesk(self)
         self.commands = Commands(self)
         fill_menus(self)
@@ -196,12 +197,6 @@ class MainWindow(QMainWindow):
             self.connect_tool(tool)
         self.inspector.follow_pointer([self.source.view, self.target.view, *(dock.view for dock in self.maps)])
 
-    def _connect(self) -> None:
-        self.theme_switch.changed.connect(self._apply_theme)
-        self.source.style_chosen.connect(self.set_source_style)
-        self.target.style_chosen.connect(self.set_target_style)
-        self.document.snapshot_taken.connect(self._extend_history)
-        self.document.history_restarted.connect(self._restart_history)
     def connect_tool(self, tool: AnchorTool) -> None:
         """Let a mouse over one of the views set and move anchors."""
         document = self.document
@@ -215,6 +210,12 @@ class MainWindow(QMainWindow):
         tool.anchor_unwanted.connect(document.remove_anchor)
         document.opened.connect(tool.let_go)
 
+    def _connect(self) -> None:
+        self.theme_switch.changed.connect(self._apply_theme)
+        self.source.style_chosen.connect(self.set_source_style)
+        self.target.style_chosen.connect(self.set_target_style)
+        self.document.snapshot_taken.connect(self._extend_history)
+        self.document.history_restarted.connect(self._restart_history)
         self.document.opened.connect(lambda: self.histogram.set_mesh(self.document.mesh))
         self.histogram.redraw_wanted.connect(self.turns.all_stale)
         self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_quantities())
@@ -229,13 +230,13 @@ class MainWindow(QMainWindow):
         """Whether views follow the map at all; without, everything but the pictures goes on."""
         for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
             view.is_drawing = wanted
+        self.splitting.set_drawing(wanted)
         self.turns.is_drawing = wanted
 
     def set_source_style(self, style: str) -> None:
         """Colour the source by a pattern of the map, or by a quantity."""
         self.colouring.set_style(self.source, style)
 
-        self.splitting.set_drawing(wanted)
     def _extend_history(self) -> None:
         snapshot = self.document.snapshot
         assert snapshot is not None
@@ -335,6 +336,7 @@ class MainWindow(QMainWindow):
             self.turns.stop()
             self.presenter.stop()
             self.look.stop()
+            self.splitting.close()
             self.reporter.stop()
             self.source_tool.let_go()
             self.target_tool.let_go()
@@ -346,7 +348,6 @@ class MainWindow(QMainWindow):
             self.commands.wait()
             self.carried.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)
-            self.splitting.close()
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()
         super().closeEvent(event)

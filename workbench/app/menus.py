@@ -68,6 +68,11 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
         view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()
+    for name in ("split-right", "split-below", "close-view"):
+        view.addAction(actions[name])
+    views = view.addMenu("V&iews")
+    views.aboutToShow.connect(lambda: window.splitting.fill_views(views))
+    view.addSeparator()
     window.textures.fill_menu(view.addMenu("Pa&ttern"))
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")
