@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from workbench.core.errors import WorkbenchError
-from workbench.io.anchors import AnchorTable, read_anchors, write_anchors
+from workbench.io.anchor_rows import AnchorTable
+from workbench.io.anchors import read_anchors, write_anchors
 
 
 def read(folder: Path, text: str, dimension: int = 2) -> AnchorTable:
@@ -32,7 +33,7 @@ def test_plain_and_weighted(tmp_path: Path) -> None:
 def test_reads_back_the_same(tmp_path: Path, weights: list[float]) -> None:
     targets = np.array([[1 / 3, -1e-17], [np.pi, 1e69]])
     path = tmp_path / "anchors.csv"
-    write_anchors(path, np.array([7, 2]), targets, np.array(weights))
+    write_anchors(path, AnchorTable(np.array([7, 2]), targets, np.array(weights)))
     back = read_anchors(path, 8, 2)
     np.testing.assert_array_equal(back.vertices, [7, 2])
     np.testing.assert_array_equal(back.targets, targets)
