@@ -78,6 +78,7 @@ def _with_mesh(record: SessionRecord, mesh: str | None) -> SessionRecord:
 def _write(options: argparse.Namespace, record: SessionRecord, opened: OpenedSource, found: Replayed) -> dict[str, Any]:
     from workbench.engine.preparation import Prepared
     from workbench.engine.run_report import build_report, history_text
+    from workbench.io.anchor_rows import AnchorTable
     from workbench.io.anchors import write_anchors
     from workbench.io.atomic import filling, write_text
     from workbench.io.write import write_map
@@ -101,7 +102,8 @@ def _write(options: argparse.Namespace, record: SessionRecord, opened: OpenedSou
         write_text(folder / "report.json", json_text(report))
         write_text(folder / "history.csv", history_text(result.rows))
         if len(anchors.vertices):
-            write_anchors(folder / "anchors.csv", anchors.vertices, anchors.targets, anchors.weights)
+            held_ones = AnchorTable(anchors.vertices, anchors.targets, anchors.weights, anchors.groups)
+            write_anchors(folder / "anchors.csv", held_ones)
         _write_carried(folder, record, opened, found)
     return report
 

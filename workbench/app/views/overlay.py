@@ -45,8 +45,8 @@ class OverlayScene:
     `anchor_vertices` (k,), `anchor_points` (k, 3) where the discs stand, `vertex_points` (k, 3) where their
     vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
     are selected, and that move with others; `soft` and `off` of those that are soft, and that hold nothing. `hot_handle` is
-    the kind and axis of the handle of the `gizmo` that is meant; `guide` (2, 3) the line along which anchors are pulled, `hold_words` what to say about that at the pixel `hold_at`;
-    `box` two corners in pixels; `hint` a line at the lower edge, what keys and buttons would do now.
+    the kind and axis of the handle of the `gizmo` that is meant; `guide` (2, 3) the line along which anchors are pulled,
+    `hold_words` what to say about that at the pixel `hold_at`; `box` two corners in pixels; `hint` a line at the lower edge, what keys and buttons would do now.
     """
 
     anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
