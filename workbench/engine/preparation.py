@@ -23,7 +23,7 @@ from workbench.core.solver import Solver
 from workbench.engine.compiling import compile_kernels
 from workbench.engine.parameter_owners import assign
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
-from workbench.io.anchors import read_anchors
+from workbench.io.anchors import read_anchors, vertices_after_fixes
 from workbench.io.opening import OpenedSource, open_source
 
 GIVEN = "given"
@@ -238,22 +238,9 @@ def _anchors(wished: str | Anchors | None, opened: OpenedSource) -> Anchors:
         if opened.anchor_vertices is None or opened.anchor_targets is None:
             return Anchors.none(mesh.dimension)
         return Anchors(opened.anchor_vertices, opened.anchor_targets)
-    table = read_anchors(wished, opened.file.mesh.vertex_count, mesh.dimension)
-    return Anchors(_vertices_after_fixes(wished, table.vertices, mesh), table.targets, table.weights)
-
-
-def _vertices_after_fixes(path: str, vertices: np.ndarray, mesh: Mesh) -> np.ndarray:
-    """Vertices of the file as vertices of the mesh that is solved on."""
-    if mesh.vertex_origin is None:
-        return vertices
-    found = []
-    for vertex in vertices.tolist():
-        now = np.flatnonzero(mesh.vertex_origin == vertex)
-        if len(now) != 1:
-            what = "was dropped by a fix" if not len(now) else f"was cut into {len(now)} vertices by a fix"
-            raise WorkbenchError(f"{path}: vertex {vertex} {what}; anchor another vertex.")
-        found.append(int(now[0]))
-    return np.array(found, dtype=np.int64)
+    table = read_anchors(wished, opened.file.mesh.vertex_count, mesh.dimension).in_force
+    vertices = vertices_after_fixes(wished, table.vertices, mesh)
+    return Anchors(vertices, table.targets, table.weights, table.groups)
 
 
 @contextmanager
