@@ -1,0 +1,46 @@
+"""A sign over a view: what is seen there is an earlier map."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QLabel, QWidget
+
+from workbench.app.theme import Theme
+
+GAP = 8
+
+
+class PastBadge(QLabel):
+    """Words in the middle of the upper edge of a view; the mouse does not see it."""
+
+    def __init__(self, view: QWidget) -> None:
+        super().__init__(view)
+        self.setObjectName("past-badge")
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.hide()
+        self._view = view
+        view.installEventFilter(self)
+
+    def set_theme(self, theme: Theme) -> None:
+        self.setStyleSheet(
+            f"#past-badge {{ background: {theme.curves[1]}; color: {'#1c2127' if theme.is_dark else '#ffffff'};"
+            " border-radius: 9px; padding: 2px 10px; font-weight: 600; }"
+        )
+
+    def say(self, text: str) -> None:
+        """Show these words; empty ones hide the badge."""
+        self.setText(text)
+        self.setVisible(bool(text))
+        self._place()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if event.type() == QEvent.Type.Resize and self.isVisible():
+            self._place()
+        return False
+
+    def _place(self) -> None:
+        self.adjustSize()
+        self.setFixedWidth(min(self.sizeHint().width(), max(self._view.width() - 2 * GAP, 1)))
+        self.move((self._view.width() - self.width()) // 2, GAP)
+        self.raise_()
