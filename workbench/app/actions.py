@@ -61,6 +61,8 @@ TEXTS: dict[str, ActionText] = {
     "last-place": ActionText("Previous place", ("Shift+F3",)),
     "dissect": ActionText("A step &dissected…", ("Ctrl+D",), "Direction, bound and line search of the next step"),
     "palette": ActionText("&Command palette…", ("Ctrl+Shift+P",), "Find whatever the window can do by a few letters"),
+    "past-live": ActionText("&Newest map", (), "Let the views show the newest map again, as it comes"),
+    "past-go-on": ActionText("&Go on from here", (), "Take the earlier map that is shown, with its anchors; undo brings back"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),

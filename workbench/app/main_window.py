@@ -48,6 +48,7 @@ from workbench.app.switches import Switches
 from workbench.app.texturing.texture_desk import TextureDesk
 from workbench.app.texturing.texturing import Texturing
 from workbench.app.theme import Theme, ThemeSwitch
+from workbench.app.timeline.time_line import TimeLine
 from workbench.app.view_memory import ViewMemory
 from workbench.app.views.pane import ViewPane
 from workbench.app.views.textures import PATTERN_LABELS
@@ -108,6 +109,7 @@ class MainWindow(QMainWindow):
         self.anchor_menu = AnchorMenu(self)
         self.sessions = SessionFiles(self)
         self.autosave = Autosave(self)
+        self.time_line = TimeLine(self)
         self.splitting = Splitting(self)
         self.textures = TextureDesk(self)
         self.commands = Commands(self)
@@ -273,7 +275,7 @@ class MainWindow(QMainWindow):
         self.setStyleSheet(style_sheet(theme))
         set_icons(self.actions_by_name, theme)
         views: tuple[Any, ...] = (self.source, self.target, self.carried, *self.maps)
-        for part in (*views, self.histogram, self.convergence, self.inspector, self.error_bar):
+        for part in (*views, self.histogram, self.convergence, self.inspector, self.error_bar, self.time_line):
             part.set_theme(theme)
         self.reporter.show_running()
 
@@ -347,6 +349,7 @@ class MainWindow(QMainWindow):
             self.inspector.wait()
             self.commands.wait()
             self.carried.wait()
+            self.time_line.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()

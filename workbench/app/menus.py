@@ -74,6 +74,7 @@ def fill_menus(window: MainWindow) -> None:
     views.aboutToShow.connect(lambda: window.splitting.fill_views(views))
     view.addSeparator()
     window.textures.fill_menu(view.addMenu("Pa&ttern"))
+    window.time_line.fill_menu(view.addMenu("&Time line"))
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")
     for dock in window.docks:

@@ -94,6 +94,16 @@ class Settings:
     def folder(self, path: str) -> None:
         self._store.setValue("folder", path)
 
+    @property
+    def time_line_memory(self) -> int:
+        """Megabytes of maps that the time line keeps."""
+        value = str(self._store.value("time-line-memory", ""))
+        return min(max(int(value), 16), 2**16) if value.isascii() and value.isdigit() and len(value) < 9 else 256
+
+    @time_line_memory.setter
+    def time_line_memory(self, megabytes: int) -> None:
+        self._store.setValue("time-line-memory", megabytes)
+
     def save_layout(self, geometry: QByteArray, state: QByteArray) -> None:
         self._store.setValue("geometry", geometry)
         self._store.setValue("state", state)
