@@ -32,6 +32,8 @@ class RigidMotion:
         d, each = points.shape[1], np.broadcast_to(part, len(points))[:, None]
         if not self.turn.any():
             return np.asarray(points + each * self.shift[:d])
+        from scipy.spatial.transform import Rotation  # slow to import, and not wanted before something turns
+
         arms = np.zeros((len(points), 3))
         arms[:, :d] = points - self.centre[:d]
         turned = Rotation.from_rotvec(each * self.turn).apply(arms)[:, :d]
