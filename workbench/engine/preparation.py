@@ -16,7 +16,6 @@ from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.initializer import Initializer
-from workbench.core.mesh import Mesh
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
 from workbench.core.solver import Solver

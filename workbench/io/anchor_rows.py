@@ -99,7 +99,8 @@ def parse_rows(
     """
     for line, row in rows:
         if len(row) != len(names):
-            raise WorkbenchError(f"{place(line, '')}: it has {len(row)} fields, and {len(names)} are needed: {', '.join(names)}.")
+            wanted = f"{len(names)} are needed: {', '.join(names)}"
+            raise WorkbenchError(f"{place(line, '')}: it has {len(row)} fields, and {wanted}.")
     lines = [line for line, _ in rows]
     cells = {name: [row[k].strip() for _, row in rows] for k, name in enumerate(names)}
 
