@@ -39,8 +39,7 @@ class AnchorSet:
     @classmethod
     def to(cls, vertices: Integers, targets: Floats) -> AnchorSet:
         """Anchors with targets of their own: (k,) int64, (k, d) float64."""
-        pairs = zip(vertices.tolist(), targets.tolist(), strict=True)
-        return cls({int(v): tuple(target) for v, target in pairs})
+        return cls(dict(zip(vertices.tolist(), map(tuple, targets.tolist()), strict=True)))
 
     def __len__(self) -> int:
         return len(self.targets)

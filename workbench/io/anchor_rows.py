@@ -80,7 +80,7 @@ def rows_of(text: str) -> tuple[Rows, bool]:
     else:
         found = [(n, line.split(separator)) for n, line in enumerate(lines, 1) if line.strip()]
     has_commas = separator != "," and any("," in cell for _, row in found for cell in row)
-    if has_commas and any("." in cell and "e" not in cell.lower() for _, row in found for cell in row if _is_numeral(cell)):
+    if has_commas and any("." in cell and _is_numeral(cell) for _, row in found for cell in row):
         raise WorkbenchError("Some numbers have a decimal point and some a comma; write all of them in one way.")
     return found, has_commas
 
@@ -116,7 +116,11 @@ def parse_rows(
     vertices = [int(vertex) for vertex in column("vertex", lambda cell: vertex_of(cell, vertex_count))]
     _refuse_twins(vertices, lines, place)
     count = len(rows)
-    targets = np.array([column(axis, coordinate_of) for axis in AXES[:dimension]]).reshape(dimension, count).T
+    ordinary = [_ordinary(cells[axis], decimal_comma) for axis in AXES[:dimension]]
+    targets = np.array([
+        column(axis, coordinate_of) if values is None else values
+        for axis, values in zip(AXES, ordinary, strict=False)
+    ]).reshape(dimension, count).T  # fmt: skip
     return AnchorTable(
         np.array(vertices, dtype=np.int64),
         targets,
@@ -124,6 +128,15 @@ def parse_rows(
         np.array(column("group", group_of), dtype=np.int64) if "group" in cells else None,  # type: ignore[arg-type]
         np.array(column("on", switch_of)) == 0.0 if "on" in cells else None,  # type: ignore[arg-type]
     )
+
+
+def _ordinary(cells: list[str], decimal_comma: bool) -> Floats | None:
+    """Coordinates all at once; None where one of them is not in order, and has to be found."""
+    try:
+        values = np.array([cell.replace(",", ".") for cell in cells] if decimal_comma else cells, dtype=np.float64)
+    except ValueError:
+        return None
+    return values if (np.abs(values) <= LARGEST_COORDINATE).all() else None
 
 
 def _refuse_twins(vertices: list[int], lines: list[int], place: Place) -> None:
