@@ -9,7 +9,7 @@ from typing import Any
 from workbench.engine.messages import Refused, SetProblem
 from workbench.session.session import Session
 
-PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions"}
+PROBLEM_FIELDS = {"distortion", "distortion_parameters", "fixed_boundary", "allow_inversions", "linear_equations"}
 SOLVER_FIELDS = {"solver", "solver_parameters"}
 START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
 REFUSABLE = {"SetProblem": PROBLEM_FIELDS, "SetSolver": SOLVER_FIELDS, "Reset": START_FIELDS}
@@ -48,4 +48,5 @@ def _fields(kept: SetProblem) -> dict[str, Any]:
         "distortion_parameters": dict(kept.parameters),
         "fixed_boundary": kept.fixed_boundary,
         "allow_inversions": kept.allow_inversions,
+        "linear_equations": kept.equations,
     }

@@ -91,6 +91,8 @@ def switched(before: Session, after: Session) -> str:
     parts += _other_values(before.solver_parameters, after.solver_parameters, before.solver == after.solver)
     if before.fixed_boundary != after.fixed_boundary:
         parts.append("boundary fixed" if after.fixed_boundary else "boundary free")
+    if before.linear_equations != after.linear_equations:
+        parts.append(f"{len(after.linear_equations) or 'no'} linear equations")
     if before.allow_inversions != after.allow_inversions:
         parts.append("inversions allowed" if after.allow_inversions else "inversions forbidden")
     return ", ".join(parts)

@@ -93,6 +93,7 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     defaults = "rest; surfaces: tutte, or auto with --solver fast"
     add("--init", metavar="ID|FILE", help=f"start: an initializer, or a map in a file (default: {defaults})")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
+    add("--equations", metavar="FILE.txt", help="linear constraints, a line each: x[12] - x[30] = 0")
     add("--pin-boundary", action="store_true", help="hard anchors at all boundary vertices, where the start has them")
     add("--repair", default="auto", metavar="ID|auto|none", help="of inverted starts (default: auto; none is there yet)")
     add("--iterations", type=count, default=1000, metavar="N", help="at most so many (default: 1000)")
@@ -127,6 +128,7 @@ def wishes_of(options: argparse.Namespace) -> Wishes:
         settings=options.settings,
         init=options.init,
         anchors=options.anchors,
+        equations=options.equations or (),
         pin_boundary=options.pin_boundary,
         allow_inversions=options.allow_inversions,
         seed=options.seed,

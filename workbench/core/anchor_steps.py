@@ -86,9 +86,10 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
     if approach.hold:
         return _relax(problem, state, evaluation.energy, evaluation.gradient, interrupt)
 
-    residual = problem.constraints.residual(x) if problem.constraints is not None else None
+    constraints = problem.free_constraints
+    residual = constraints.residual(x) if constraints is not None else None
     try:
-        direction = system.solve(evaluation.gradient, displacement, problem.constraints, residual)
+        direction = system.solve(evaluation.gradient, displacement, constraints, residual)
     except SingularMatrixError:
         return replace(state, status=Status.SINGULAR)
     if not np.isfinite(direction).all():
@@ -139,7 +140,7 @@ def predict_with_response(
     hard = problem.anchors.hard_vertices
     displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
     moved = moved_anchors(problem, state)
-    if not len(moved):
+    if not len(moved) or problem.constraints is not None:  # the kept response knows nothing of A x = b
         return None
     direction = respond(displacement)
     if direction is None:
@@ -314,9 +315,13 @@ def _push(
 
 
 def _relax(problem: Problem, state: State, energy: float, gradient: Floats, interrupt: Callable[[], bool]) -> State:
-    """A Newton step with the anchors held where they are: it makes room for the next push."""
-    x = state.positions
-    direction = problem.system.solve(gradient)
+    """A Newton step with the anchors held where they are, along A x = const: it makes room for the next push."""
+    x, constraints = state.positions, problem.free_constraints
+    still = None if constraints is None else np.zeros(len(constraints.values))
+    try:
+        direction = problem.system.solve(gradient, None, constraints, still)
+    except SingularMatrixError:
+        return replace(state, status=Status.SINGULAR)
     slope = float(np.einsum("ij,ij->", gradient, direction))
     first = 1.0
     if problem.forbids_inversions:

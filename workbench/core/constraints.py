@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+import scipy.sparse.linalg
 from scipy import sparse
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.errors import WorkbenchError
+
+INDEPENDENT = 1e-10
+"""Part of the length of a row that has to be left beyond the rows before it, or they say the same."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,12 +113,13 @@ class LinearConstraints:
 
     Parameters
     ----------
-    matrix : (p, n d) sparse or dense     rows independent of each other and of the hard anchors
+    matrix : (p, n d) sparse or dense     solvers take those of its rows that are independent (see there)
     values : (p,) float64
     """
 
     matrix: sparse.csr_matrix
     values: Floats
+    _kept: list[tuple[Integers, LinearConstraints]] = field(default_factory=list, init=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "matrix", sparse.csr_matrix(self.matrix, dtype=np.float64))
@@ -126,6 +131,33 @@ class LinearConstraints:
         """b - A x, (p,)."""
         result: Floats = self.values - self.matrix @ positions.reshape(-1)
         return result
+
+    def independent(self, held: Integers, dimension: int) -> LinearConstraints:
+        """The rows that say something new once the vertices `held` stand still; kept until these change."""
+        if not self._kept or not np.array_equal(self._kept[0][0], held):
+            rows = self._independent_rows((held[:, None] * dimension + np.arange(dimension)).reshape(-1))
+            every = len(rows) == len(self.values)
+            self._kept[:] = [(held.copy(), self if every else LinearConstraints(self.matrix[rows], self.values[rows]))]
+        return self._kept[0][1]
+
+    def _independent_rows(self, still: Integers) -> Integers:
+        """By Gram and Schmidt, twice for each row: what is left of it beyond those before is rounding, or news."""
+        free = np.ones(self.matrix.shape[1])
+        free[still] = 0.0
+        lengths = scipy.sparse.linalg.norm(self.matrix, axis=1)
+        moving = sparse.csr_matrix(self.matrix @ sparse.diags(free))
+        rows = moving[:, np.unique(moving.indices)].toarray()
+        basis = np.empty_like(rows)
+        found: list[int] = []
+        for index, row in enumerate(rows):
+            before = basis[: len(found)]
+            for _ in range(2):
+                row = row - before.T @ (before @ row)
+            left = float(np.linalg.norm(row))
+            if left > INDEPENDENT * lengths[index]:
+                basis[len(found)] = row / left
+                found.append(index)
+        return np.array(found, dtype=np.int64)
 
     def tangential(self, direction: Floats, held: Integers, inverse_metric: Floats | None = None) -> Floats:
         """The part of `direction` (n, d) that keeps A x, with the vertices `held` not moving at all.

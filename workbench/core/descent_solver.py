@@ -76,7 +76,7 @@ def direction_in_metric(problem: Problem, values: Floats, gradient: Floats, shif
 
     Raises `SingularMatrixError`, also where the result is not finite.
     """
-    constraints = problem.constraints
+    constraints = problem.free_constraints
     residual = np.zeros(len(constraints.values)) if constraints is not None else None
     problem.system.factorise(values, problem.anchors.hard_vertices, shifts)
     direction = problem.system.solve(gradient, None, constraints, residual)
@@ -89,7 +89,7 @@ def direction_in_laplacian(problem: Problem, gradient: Floats) -> Floats:
     """-K^-1 gradient for the Laplacian of the source (see `LaplacianSystem`), factored once; else as above."""
     laplacian = problem.workspace.laplacian
     laplacian.serve(problem.anchors)
-    direction = laplacian.direction(gradient, problem.constraints)
+    direction = laplacian.direction(gradient, problem.free_constraints)
     if not np.isfinite(direction).all():
         raise SingularMatrixError("the direction is not finite")
     return direction

@@ -151,6 +151,10 @@ class Problem:
         """Other anchors; shares everything that does not depend on them."""
         return replace(self, anchors=anchors)
 
+    def with_constraints(self, constraints: LinearConstraints | None) -> Problem:
+        """Other linear constraints; shares everything that does not depend on them."""
+        return replace(self, constraints=constraints)
+
     def with_distortion(self, distortion: Distortion, allow_inversions: bool = False) -> Problem:
         """Another distortion on the same source; the last factor is forgotten, the pattern and its analysis are kept."""
         distortion.compiled(self.dimension)
@@ -289,6 +293,11 @@ class Problem:
         return int(np.count_nonzero(~(determinants(self.elements, positions) > 0)))
 
     # ------------------------------------------------------------------------------------- constraints
+
+    @property
+    def free_constraints(self) -> LinearConstraints | None:
+        """Those linear constraints that say something beyond each other and the hard anchors."""
+        return None if self.constraints is None else self.constraints.independent(self.anchors.hard_vertices, self.dimension)
 
     def anchor_error(self, positions: Floats) -> float:
         """Largest distance of a hard anchor from its target, or residual of a linear constraint."""

@@ -15,6 +15,7 @@ from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.guarded_step import checked, guarded_step
+from workbench.core.linear_equations import with_equations
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.problem import Criteria, Problem
@@ -160,6 +161,7 @@ class EngineLoop:
         # Whatever refuses the mesh (a formula that does not exist in its dimension, say) leaves the old one in force.
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
         problem = Problem.create(opened.mesh, opened.kind, distortion, allow_inversions=self._choices.allow_inversions)
+        self._choices = replace(self._choices, equations=())
         self._configured_solver(self._solver_choice, problem)
         if self._mesh is not None:  # the start that was chosen for another mesh is not for this one
             self._reset = Reset(match_area=self._reset.match_area)
@@ -175,7 +177,8 @@ class EngineLoop:
         self._generation, self._mesh, self._kind = command.generation, command.mesh, command.kind
         self._file_start = command.positions
         distortion = Distortion.resolve(self._choices.distortion, self._choices.parameters)
-        self._problem = Problem.create(command.mesh, command.kind, distortion, allow_inversions=self._choices.allow_inversions)
+        problem = Problem.create(command.mesh, command.kind, distortion, allow_inversions=self._choices.allow_inversions)
+        self._problem = with_equations(problem, self._choices.equations)
         self._number = command.number
         self._start_from(command.positions, command.iteration)
         self._file_start = None
@@ -203,7 +206,7 @@ class EngineLoop:
             return
         choices, held = command.problem, command.anchors
         distortion = Distortion.resolve(choices.distortion, choices.parameters)
-        problem = self._problem.with_distortion(distortion, choices.allow_inversions)
+        problem = with_equations(self._problem.with_distortion(distortion, choices.allow_inversions), choices.equations)
         self._configured_solver(command.solver, problem)
         held.anchors.check(problem.mesh.vertex_count, problem.dimension)
         self._choices, self._solver_choice, self._anchors, self._problem = choices, command.solver, held, problem
@@ -234,6 +237,8 @@ class EngineLoop:
             if self._solver is not None:
                 self._solver.check_distortion(distortion)
             changed = self._problem if same else self._problem.with_distortion(distortion, command.allow_inversions)
+            if command.equations != self._choices.equations:
+                changed = with_equations(changed, command.equations)
             if self._state is not None:
                 changed = changed.from_start(self._state.positions)
                 if not same:

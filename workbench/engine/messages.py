@@ -52,13 +52,15 @@ class SetProblem(Command):
     """Distortion (id or formula) with its parameters; the current map is kept.
 
     `fixed_boundary` holds the boundary vertices where they are now, beside the anchors. Refused where the distortion is no
-    finite number on the current map. `serial` is chosen by the sender (growing), and comes back in a refusal.
+    finite number on the current map. `equations` are linear constraints, a line each (see `workbench.core.linear_equations`);
+    another mesh begins without any. `serial` is chosen by the sender (growing), and comes back in a refusal.
     """
 
     distortion: str = "symmetric-dirichlet"
     parameters: dict[str, float] = field(default_factory=dict)
     fixed_boundary: bool = False
     allow_inversions: bool = False
+    equations: tuple[str, ...] = ()
     serial: int = field(default=0, compare=False)
 
 

@@ -16,6 +16,7 @@ from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.initializer import Initializer
+from workbench.core.linear_equations import with_equations
 from workbench.core.problem import Problem
 from workbench.core.registry import registry
 from workbench.core.solver import Solver
@@ -23,6 +24,7 @@ from workbench.engine.compiling import compile_kernels
 from workbench.engine.parameter_owners import assign
 from workbench.engine.starts import adjusted_start, default_initializer, make_start
 from workbench.io.anchors import read_anchors, vertices_after_fixes
+from workbench.io.equations import read_equation_file
 from workbench.io.opening import OpenedSource, open_source
 
 GIVEN = "given"
@@ -43,6 +45,7 @@ class Wishes:
     match_area : bool            scale the start to the area of the source, where its own scale means nothing
     anchors : str | Anchors      a CSV file, or the anchors; None: those of the case
     pin_boundary : bool          hard anchors at all boundary vertices, where the start has them
+    equations : str | lines      linear constraints: a file of them, or a line each (see `workbench.core.linear_equations`)
     seed : int                   for methods that draw random numbers
     """
 
@@ -57,6 +60,7 @@ class Wishes:
     anchors: str | Anchors | None = None
     pin_boundary: bool = False
     allow_inversions: bool = False
+    equations: str | Sequence[str] = ()
     seed: int = 0
 
 
@@ -132,6 +136,7 @@ def prepare_problem(
             refused[method] = error.sentence
     if unfit is not None:
         unfit.update(refused)
+    equations = read_equation_file(wishes.equations) if isinstance(wishes.equations, str) else tuple(wishes.equations)
     problem = Problem.create(
         opened.mesh,
         opened.kind,
@@ -139,6 +144,7 @@ def prepare_problem(
         _anchors(wishes.anchors, opened),
         allow_inversions=wishes.allow_inversions,
     )
+    problem = with_equations(problem, equations)
     with _timed(seconds, "start"):
         if starter is None:
             start = _given_start(wishes.init, problem)

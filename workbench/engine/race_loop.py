@@ -11,6 +11,7 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
+from workbench.core.linear_equations import with_equations
 from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
 from workbench.engine.messages import (
@@ -266,7 +267,8 @@ def _start_of(command: StartRace, problem: Problem) -> Floats:
 def _problem_of(command: StartRace) -> Problem:
     mesh, choices = command.mesh, command.problem
     anchors = _anchors(command.anchors, mesh.dimension)
-    return Problem.create(mesh, command.kind, _distortion(choices), anchors, allow_inversions=choices.allow_inversions)
+    problem = Problem.create(mesh, command.kind, _distortion(choices), anchors, allow_inversions=choices.allow_inversions)
+    return with_equations(problem, choices.equations)
 
 
 def _anchors(held: SetAnchors, dimension: int) -> Anchors:

@@ -12,6 +12,7 @@ from workbench.core.arrays import Floats
 from workbench.core.constraints import Anchors
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
+from workbench.core.linear_equations import with_equations
 from workbench.core.problem import Criteria, Problem
 from workbench.core.registry import registry
 from workbench.core.run import HistoryRow, RunResult, history_row, run

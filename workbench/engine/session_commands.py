@@ -20,6 +20,7 @@ def leg_of(report: LegBegun) -> Leg:
         distortion_parameters=dict(problem.parameters),
         fixed_boundary=problem.fixed_boundary,
         allow_inversions=problem.allow_inversions,
+        linear_equations=problem.equations,
         solver=solver.solver,
         solver_parameters=dict(solver.parameters),
         tolerance=report.tolerance,
@@ -55,7 +56,8 @@ def anchors_command(session: Session, dimension: int, serial: int = 0) -> SetAnc
 def problem_command(session: Session, serial: int = 0) -> SetProblem:
     """The distortion of a session, and what is held and allowed, for the engine."""
     parameters = dict(session.distortion_parameters)
-    return SetProblem(session.distortion, parameters, session.fixed_boundary, session.allow_inversions, serial)
+    held, allowed, equations = session.fixed_boundary, session.allow_inversions, session.linear_equations
+    return SetProblem(session.distortion, parameters, held, allowed, equations, serial)
 
 
 def solver_command(session: Session) -> SetSolver:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.linear_equations import LONGEST_EQUATION, MOST_EQUATIONS, read_equations
 from workbench.core.method import KINDS
 
 LARGEST_COORDINATE = 1e70
@@ -84,6 +85,12 @@ def rows(what: str, value: Any, most: int) -> list[Any]:
 def fixes(what: str, value: Any) -> tuple[str, ...]:
     """Names of fixes; those that there are not are refused where they are applied."""
     return tuple(text(what, name, SHOWN) for name in rows(what, value, 20))
+
+
+def equations(what: str, value: Any) -> tuple[str, ...]:
+    """Linear equations, a line each."""
+    found = rows(what, value, MOST_EQUATIONS)
+    return read_equations("\n".join(text(f"A line of {what}", line, LONGEST_EQUATION) for line in found))
 
 
 def parameters(what: str, value: Any) -> dict[str, Any]:
@@ -167,6 +174,7 @@ CHOICES: dict[str, Check] = {
     "match_area": flag,
     "fixed_boundary": flag,
     "allow_inversions": flag,
+    "linear_equations": equations,
     "carried": path,
     "iterations": whole,
     "tolerance": amount,

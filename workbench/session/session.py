@@ -16,7 +16,8 @@ class Session:
     `source` is a path or `sample:ID`; empty strings stand for the default of the kind of map.
     Anchors are tuples, so that sessions compare by value: weights are inf for hard anchors, groups -1 for those that move
     alone (see `workbench.core.constraints.Anchors`). `anchors_off` are vertices of anchors that are kept and hold nothing.
-    `carried` is the surface that a solid takes along.
+    `linear_equations` bind coordinates of the map (see `workbench.core.linear_equations`). `carried` is the surface that a
+    solid takes along.
     """
 
     source: str = ""
@@ -36,6 +37,7 @@ class Session:
     anchor_targets: tuple[tuple[float, ...], ...] = ()
     anchor_weights: tuple[float, ...] = ()
     anchor_groups: tuple[int, ...] = ()
+    linear_equations: tuple[str, ...] = ()
     anchors_off: frozenset[int] = frozenset()
     carried: str = ""
     iterations: int = 1000

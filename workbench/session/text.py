@@ -18,7 +18,8 @@ from workbench.session.session import ANCHORS, Session
 FORMAT = "distortion-workbench session"
 VERSION = 1
 LEG_CHOICES = (
-    "distortion", "distortion_parameters", "solver", "solver_parameters", "fixed_boundary", "allow_inversions", "tolerance",
+    "distortion", "distortion_parameters", "solver", "solver_parameters", "fixed_boundary", "allow_inversions",
+    "linear_equations", "tolerance",
 )  # fmt: skip
 """Choices in which a leg may differ from the session that it belongs to; its anchors may, too."""
 MAP = "map"

@@ -133,6 +133,7 @@ class Racing(QObject):
             dict(session.distortion_parameters) if own else {},
             session.fixed_boundary,
             session.allow_inversions,
+            session.linear_equations,
         )
         reset = Reset(session.initializer, dict(session.initializer_parameters), session.start_file, session.match_area)
         return StartRace(

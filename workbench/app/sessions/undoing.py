@@ -30,6 +30,7 @@ NAMES = {
     "match_area": "Scale",
     "fixed_boundary": "Boundary",
     "allow_inversions": "Inversions",
+    "linear_equations": "Linear equations",
     "distortion": "Distortion",
     "solver": "Solver",
     "carried": "Carried surface",
