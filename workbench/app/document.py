@@ -232,7 +232,7 @@ class Document(QObject):
         if self._wanted is None:
             self._announce("Open")
         self.journal.clear()
-        fresh = {"initializer": "", "initializer_parameters": {}, "start_file": "", "carried": ""}
+        fresh = {"initializer": "", "initializer_parameters": {}, "start_file": "", "carried": "", "linear_equations": ()}
         self.session = replace(self._attempt or self.session, fixes=report.fixes, **fresh)
         self.opening_source = ""
         self.loaded = report
