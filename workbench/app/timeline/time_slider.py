@@ -140,6 +140,7 @@ class TimeSlider(QWidget):
         if len(record) > 1:
             self._paint_curves(painter, area)
             self._paint_notes(painter, area)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QColor(theme.border))
         painter.drawRect(area)
         for name, moment in self.marked.items():
