@@ -33,6 +33,7 @@ from workbench.app.presenter import Presenter
 from workbench.app.progress_bar import ProgressLine
 from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.quantity_book import QuantityBook
+from workbench.app.readings.readings import Readings
 from workbench.app.reporter import Reporter
 from workbench.app.sessions.autosave import Autosave
 from workbench.app.sessions.session_files import SessionFiles
@@ -111,6 +112,7 @@ class MainWindow(QMainWindow):
         self.autosave = Autosave(self)
         self.time_line = TimeLine(self)
         self.splitting = Splitting(self)
+        self.readings = Readings(self)
         self.textures = TextureDesk(self)
         self.commands = Commands(self)
         fill_menus(self)
@@ -338,6 +340,7 @@ class MainWindow(QMainWindow):
             self.turns.stop()
             self.presenter.stop()
             self.look.stop()
+            self.readings.stop()
             self.splitting.close()
             self.reporter.stop()
             self.source_tool.let_go()

@@ -51,7 +51,8 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("pin", "box", "remove", "clear"):
         edit.addAction(actions[name])
     edit.addSeparator()
-    edit.addAction(actions["refine"])
+    for name in ("equations", "refine"):
+        edit.addAction(actions[name])
     solver = bar.addMenu("&Solver")
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])
@@ -68,8 +69,8 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
         view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()
-    for name in ("split-right", "split-below", "close-view"):
-        view.addAction(actions[name])
+    for name in ("split-right", "split-below", "close-view", "", "readings", "copy-readings"):
+        view.addAction(actions[name]) if name else view.addSeparator()
     views = view.addMenu("V&iews")
     views.aboutToShow.connect(lambda: window.splitting.fill_views(views))
     view.addSeparator()

@@ -179,7 +179,7 @@ class Presenter(QObject):
         surface, geometry, snapshot = pane.view.surface, self._target_geometry, self._document.snapshot
         if surface is None or geometry is None or snapshot is None:
             return
-        surface.set_texture_positions(geometry.points)
+        surface.lay_texture()
         if not pane.is_source:
             pane.view.points_changed()
             if not len(self._document.anchors):

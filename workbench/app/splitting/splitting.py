@@ -122,7 +122,7 @@ class Splitting(QObject):
         leaf = self._leaves[name]
         pane = self.make(self._free_name(), "source" if leaf.is_source else "target")
         self._grid_of(leaf).split(leaf.widget, side, pane)
-        self._begin(pane, self._shown_in(leaf))
+        self._begin(pane, self.shown_in(leaf))
         if leaf.view.geometry_shown is not None:
             pane.view.set_camera(replace(leaf.view.camera), fits=leaf.view.shows_everything)
             if leaf.view.shows_everything:
@@ -134,7 +134,7 @@ class Splitting(QObject):
     def _free_name(self) -> str:
         return next(name for i in range(1, MOST_PANES + 2) if (name := f"pane-{i}") not in self._leaves)
 
-    def _shown_in(self, leaf: Leaf) -> str:
+    def shown_in(self, leaf: Leaf) -> str:
         """Name of a pattern, or id of a quantity."""
         if leaf.pane is not None:
             return self._window.colouring.style_of(leaf.pane)
@@ -169,7 +169,7 @@ class Splitting(QObject):
         leaf = self._leaves[name]
         if side not in SIDES or leaf.is_source is (side == "source"):
             return
-        shown = self._shown_in(leaf)
+        shown = self.shown_in(leaf)
         grid = self._grid_of(leaf)
         self._end(leaf)
         pane = self.make(name, side)

@@ -1,0 +1,1 @@
+"""Reading the numbers of what is under the pointer."""
