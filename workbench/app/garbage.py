@@ -20,7 +20,6 @@ class GuiGarbage(QObject):
 
     def __init__(self) -> None:
         super().__init__()
-        gc.collect()
         gc.freeze()
         gc.disable()
         self._young = 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -9,6 +10,9 @@ from typing import Any
 
 # before anything imports qtpy, through pyvistaqt
 os.environ.setdefault("QT_API", "pyside6")
+
+FIRST = "sample:gingerbread"
+"""What is open at first, where nothing is named."""
 
 
 def run_window(
@@ -28,7 +32,8 @@ def run_window(
     """
     from workbench.engine.head_start import begin_engine
 
-    begun = begin_engine(gives_way=True)  # it imports its own while this process does
+    begun = begin_engine(gives_way=True, ahead=source or FIRST)  # it imports its own while this process does
+    gc.disable()  # what is made now stays; `GuiGarbage` collects later
     application = make_application()
     from workbench.app.engine_bridge import engine_worker
     from workbench.app.garbage import GuiGarbage
@@ -40,7 +45,7 @@ def run_window(
     switch = ThemeSwitch(application, theme if theme in ("light", "dark") else settings.theme)
     window = MainWindow(switch, settings, lambda wake: engine_worker(wake, begun))
     window.show()
-    window.start(source or "")
+    window.start(source or FIRST)
     window.autosave.start()
     # the engine's thread shares the interpreter: it shall give the window its turn soon
     interval = sys.getswitchinterval()

@@ -38,9 +38,13 @@ def begin_child_process(name: str, gives_way: bool, body: Callable[..., None] | 
     return process, ours
 
 
-def begin_engine(*, threads: int = 0, gives_way: bool = False) -> BegunEngine:
-    """Spawn the engine; see `EngineWorker` for the arguments."""
+def begin_engine(*, threads: int = 0, gives_way: bool = False, ahead: str = "") -> BegunEngine:
+    """Spawn the engine; see `EngineWorker` for the arguments, `engine_main` for `ahead`.
+
+    One that gives way does so from its first map on: until then the window has nothing to draw.
+    """
     engines, correctors = multiprocessing.get_context("spawn").Pipe(duplex=True)
-    process, connection = begin_child_process(NAME, gives_way, ENGINE, engines, time.time(), threads)
+    arguments = engines, time.time(), threads, gives_way, ahead
+    process, connection = begin_child_process(NAME, False, ENGINE, *arguments)
     engines.close()
     return BegunEngine(process, connection, correctors, time.monotonic())

@@ -5,6 +5,8 @@ from __future__ import annotations
 import importlib
 import os
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 NICENESS = 10
@@ -18,9 +20,21 @@ def run_child(gives_way: bool, body: Callable[..., None] | str, *arguments: Any)
     Without a graphics card the window's pictures are drawn by the processor; where the solver holds all cores a picture
     of 25 k triangles takes three times as long. Systems without priorities of this kind (Windows) leave it as it is.
     """
-    if gives_way and hasattr(os, "nice"):
-        os.nice(NICENESS)
+    if gives_way:
+        give_way()
     if isinstance(body, str):
         module, _, name = body.partition(":")
-        body = getattr(importlib.import_module(module), name)
-    body(*arguments)
+        getattr(importlib.import_module(module), name)(*arguments)
+    else:
+        body(*arguments)
+
+
+def give_way() -> None:
+    """Low priority for this process from now on, the threads that it has included."""
+    tasks = Path("/proc/self/task")
+    if tasks.is_dir():  # Linux: priorities belong to threads
+        for task in tasks.iterdir():
+            with suppress(OSError):  # it has ended meanwhile
+                os.setpriority(os.PRIO_PROCESS, int(task.name), NICENESS)
+    elif hasattr(os, "nice"):
+        os.nice(NICENESS)

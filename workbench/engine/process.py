@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from multiprocessing.connection import Connection, wait
 
@@ -13,6 +14,7 @@ import numpy as np
 from workbench.engine.child import begin_child
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Progress, Ready, Report
+from workbench.engine.priority import give_way
 from workbench.engine.service import Inbox
 from workbench.engine.shared_positions import PositionRing
 
@@ -25,8 +27,9 @@ NOWHERE = np.empty((0, 2))
 class _Publisher:
     """Sends reports; positions go through shared memory, the small rest through the pipe."""
 
-    def __init__(self, connection: Connection) -> None:
+    def __init__(self, connection: Connection, gives_way: bool = False) -> None:
         self._connection = connection
+        self._gives_way = gives_way
         self._ring: PositionRing | None = None
         self._held: MapReport | None = None
         self._last_sent = 0.0
@@ -58,18 +61,32 @@ class _Publisher:
         self._ring.write(report.number, report.positions)
         self._connection.send(replace(report, positions=NOWHERE, seconds_published=time.perf_counter()))
         self._last_sent, self._last_serial = time.perf_counter(), report.anchor_serial
+        if self._gives_way:
+            self._gives_way = False
+            give_way()
 
 
-def engine_main(connection: Connection, corrector: Connection, spawned_at: float, threads: int) -> None:
-    """Body of the child process; ends with `Quit`, or when the pipe breaks."""
+def engine_main(
+    connection: Connection,
+    corrector: Connection,
+    spawned_at: float,
+    threads: int,
+    gives_way: bool = False,
+    ahead: str = "",
+) -> None:
+    """Body of the child process; ends with `Quit`, or when the pipe breaks.
+
+    `ahead` is a source that will be asked for: what can be made of it before is made, once the kernels are ready.
+    """
     begin_child(threads)
     inbox = Inbox(connection)
-    publisher = _Publisher(connection)
+    publisher = _Publisher(connection, gives_way)
     loop = EngineLoop(publisher, inbox.is_urgent, corrector)
 
     def begin() -> None:
         warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
         publisher(Ready(time.time() - spawned_at))
+        prepare(ahead)
 
     def rest() -> None:
         publisher.flush()
@@ -77,6 +94,18 @@ def engine_main(connection: Connection, corrector: Connection, spawned_at: float
         wait([connection, *loop.waits_for], NAP if loop.is_active else None)
 
     inbox.serve(loop, begin, rest)
+
+
+def prepare(ahead: str) -> None:
+    """Find the methods, and make the sample that will be asked for; whatever is wrong will be said when it is."""
+    from workbench.core.registry import registry
+    from workbench.core.samples import sample_info
+    from workbench.io.opening import SAMPLE
+
+    with suppress(Exception, SystemExit):
+        registry()
+        if ahead.startswith(SAMPLE):
+            sample_info(ahead.removeprefix(SAMPLE))
 
 
 def warm_up(tell: Callable[[], None]) -> None:
