@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import time
 from collections.abc import Callable
@@ -30,6 +31,7 @@ class _Publisher:
     def __init__(self, connection: Connection, gives_way: bool = False) -> None:
         self._connection = connection
         self._gives_way = gives_way
+        self._is_first = True
         self._ring: PositionRing | None = None
         self._held: MapReport | None = None
         self._last_sent = 0.0
@@ -61,9 +63,12 @@ class _Publisher:
         self._ring.write(report.number, report.positions)
         self._connection.send(replace(report, positions=NOWHERE, seconds_published=time.perf_counter()))
         self._last_sent, self._last_serial = time.perf_counter(), report.anchor_serial
-        if self._gives_way:
-            self._gives_way = False
-            give_way()
+        if self._is_first:
+            self._is_first = False
+            gc.freeze()
+            gc.enable()
+            if self._gives_way:
+                give_way()
 
 
 def engine_main(
@@ -78,6 +83,7 @@ def engine_main(
 
     `ahead` is a source that will be asked for: what can be made of it before is made, once the kernels are ready.
     """
+    gc.disable()  # until the first map: what is made before stays
     begin_child(threads)
     inbox = Inbox(connection)
     publisher = _Publisher(connection, gives_way)

@@ -156,7 +156,6 @@ def sample_kind(id: str) -> Kind:
     return _recipe(id).kind
 
 
-@lru_cache(maxsize=16)
 def make_sample(id: str, triangles: int | None = None) -> Mesh:
     """A sample with about `triangles` triangles (tetrahedra), by default as many as suit it.
 
@@ -166,6 +165,12 @@ def make_sample(id: str, triangles: int | None = None) -> Mesh:
     count = recipe.simplices if triangles is None else int(triangles)
     if not recipe.least <= count <= 5_000_000:
         raise WorkbenchError(f"The sample {id} cannot be made of {count} simplices; ask for {recipe.least} to 5000000.")
+    return _made(id, count)
+
+
+@lru_cache(maxsize=16)
+def _made(id: str, count: int) -> Mesh:
+    recipe = _recipe(id)
     vertices, simplices = recipe.make(count)
     return Mesh(vertices, simplices, name=recipe.label)
 
