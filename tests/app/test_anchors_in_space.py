@@ -184,7 +184,7 @@ def test_the_right_button_offers_what_can_be_done(solid_window: MainWindow) -> N
     def offered(where: QPoint) -> dict[str, object]:
         hand.press(where, Qt.MouseButton.RightButton)
         hand.release(where, Qt.MouseButton.RightButton)
-        menu = window.anchor_menu.menu
+        menu = window.handling.menu.menu
         actions = {action.text().partition("\t")[0].replace("&", ""): action for action in menu.actions()}
         menu.close()
         return actions
@@ -209,7 +209,7 @@ def test_anchors_are_placed_by_numbers(solid_window: MainWindow, qtbot: QtBot) -
     vertex = nearest_corner(window)
     Hand(view).click(pixel_of(view, vertex))
     QTest.keyClick(view.overlay, Qt.Key.Key_Return)
-    dialog = window.anchor_menu.dialog
+    dialog = window.handling.menu.dialog
     before = window.document.anchors.targets[vertex]
     dialog.apply()
     assert window.document.anchors.targets[vertex] == before, "what nobody changed stays to the last bit"

@@ -9,12 +9,13 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tests.app.fake_engine import solid_mesh
-from workbench.app.handling.box_selection import in_box, visible_points
 from workbench.app.handling.gizmo import ARROW, RADIUS, Gizmo
+from workbench.app.handling.lasso import box_outline, in_outline
 from workbench.app.handling.locks import FREE, axis_lock, normal_lock, pulled, toggled
 from workbench.app.handling.normals import faces_away, mean_normal
 from workbench.app.handling.rigid_motion import RigidMotion
 from workbench.app.handling.turning import Turning, snapped
+from workbench.app.handling.visible_points import visible_points
 from workbench.app.views.camera import ViewCamera
 from workbench.app.views.drawn_faces import drawn_faces
 
@@ -144,7 +145,7 @@ def test_a_box_takes_what_is_seen_in_it() -> None:
     heights = np.array([0.0] * 4 + [1.0] * 4 + [0.5])
     triangles = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]])
     everything = np.arange(9)
-    chosen = everything[in_box(pixels, np.array([-3.0, -3.0]), np.array([13.0, 6.0]))]
+    chosen = everything[in_outline(pixels, box_outline(np.array([-3.0, -3.0]), np.array([13.0, 6.0])))]
     assert chosen.tolist() == [0, 1, 4, 5, 8]
     assert visible_points(chosen, pixels, heights, triangles).tolist() == [4, 5]
     assert visible_points(chosen, pixels, -heights, triangles).tolist() == [0, 1, 4, 5]

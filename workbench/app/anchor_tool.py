@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QCursor, QKeyEvent, QMouseEvent, QWheelEvent
 
-from workbench.app.handling.box_selection import in_box, visible_points
+from workbench.app.handling.area_drawing import AreaDrawing
 from workbench.app.handling.hold_keys import HoldKeys
 from workbench.app.handling.holds import Hold, Pull, hold_of
+from workbench.app.handling.key_hold import KeyHold
 from workbench.app.handling.locks import Lock, axis_lock, normal_lock, toggled
 from workbench.app.handling.normals import mean_normal
 from workbench.app.navigation_tool import NavigationTool, pixel_of
@@ -22,9 +23,9 @@ CLICK_SLACK = 4.0
 """Pixels that the hand may move between press and release of a click."""
 DRAG_INTERVAL = 16
 """Milliseconds between two moves that are passed on: 60 a second."""
-BOX_HINT = "Box round vertices · with Ctrl: also those behind · Esc: none"
-LEFT, SHIFT, ALT, CTRL = (
+LEFT, RIGHT, SHIFT, ALT, CTRL = (
     Qt.MouseButton.LeftButton,
+    Qt.MouseButton.RightButton,
     Qt.KeyboardModifier.ShiftModifier,
     Qt.KeyboardModifier.AltModifier,
     Qt.KeyboardModifier.ControlModifier,
@@ -34,8 +35,9 @@ LEFT, SHIFT, ALT, CTRL = (
 class AnchorTool(NavigationTool):
     """Anchors with the mouse, on top of looking about.
 
-    Click: set or select. Drag in the target: move, with its group. Shift and drag: a box. Alt and click: a whole patch.
-    Signals carry vertices and motions; what they do is the business of whoever listens.
+    Click: set or select; with Shift add to the selection, with Ctrl take out of it. Drag in the target: move all that is
+    selected. Shift and drag: a box. Alt and click: a whole patch. `hold` moves without a button. Signals carry vertices and
+    motions; what they do is the business of whoever listens.
     """
 
     hovered = Signal(int)
@@ -46,11 +48,12 @@ class AnchorTool(NavigationTool):
     motion_wanted = Signal(object, bool, float)
     """motion since they were taken up, whether the hand still holds them, time of the event"""
     drag_cancelled = Signal()
-    group_wanted = Signal(object)
-    """vertices (k,) that were chosen by a box"""
-    nothing_chosen = Signal()
-    box_ended = Signal()
-    """A box that was announced was drawn, or given up"""
+    anchor_toggled = Signal(int, bool)
+    """one more anchor is selected, or one less"""
+    picked = Signal(int)
+    """vertex that was clicked while vertices are picked, -1 for none"""
+    wheel_turned = Signal(float)
+    """while anchors are held: steps of the wheel"""
     patch_wanted = Signal(float, float)
     """pixel of what is to be anchored as a whole"""
     anchor_unwanted = Signal(int)
@@ -60,20 +63,23 @@ class AnchorTool(NavigationTool):
 
     def __init__(self, view: MeshView, *, is_target: bool, may_anchor: Callable[[], bool]) -> None:
         super().__init__(view)
-        self._is_target = is_target
+        self.is_target = is_target
         self._may_anchor = may_anchor
         self._pressed_at = self._where = QPointF()
-        self._pressed_vertex = -1
+        self._pressed_vertex = self._clicked_anchor = -1
         self._hold: Hold | None = None
         self._was_moved = False
         self._taken_from = np.zeros(3)
-        self._box_from: QPointF | None = None
-        self._box_armed = False
+        self.area = AreaDrawing(view)
+        self.is_picking = False
         self._pending: tuple[QPointF, bool, float] | None = None
-        self._keys = HoldKeys(self)
+        self._keys = HoldKeys(self, view.overlay)
         self._keys.axis_pressed.connect(self._lock_axis)
         self._keys.normal_pressed.connect(self._lock_normal)
         self._keys.cancelled.connect(self.cancel)
+        self._keys.typed.connect(self._type)
+        self._keys.confirmed.connect(self._confirm)
+        self._keys.deed_pressed.connect(self._change_deed)
         self._throttle = QTimer(self)
         self._throttle.setInterval(DRAG_INTERVAL)
         self._throttle.timeout.connect(self._pass_on)
@@ -86,10 +92,19 @@ class AnchorTool(NavigationTool):
     # ------------------------------------------------------------------------------------------ press
 
     def press(self, event: QMouseEvent) -> None:
-        if event.button() == Qt.MouseButton.RightButton and not self.is_dragging:
+        if isinstance(self._hold, KeyHold):
+            if event.button() == LEFT:
+                self._confirm()
+            elif event.button() == RIGHT:
+                self.cancel()
+            else:
+                super().press(event)
+        elif event.button() == RIGHT and not self.is_dragging:
             self._press_right(event)
         elif event.button() != LEFT or not self._may_anchor():
             super().press(event)
+        elif self.is_picking:
+            self.picked.emit(self.view.vertex_at(pixel_of(event)))
         else:
             self._press_left(event)
 
@@ -97,7 +112,9 @@ class AnchorTool(NavigationTool):
         x, y = pixel_of(event)
         vertex = self.view.anchor_at((x, y))
         scene = self.view.overlay.scene
-        if vertex >= 0 and not scene.is_grouped(vertex):
+        if self.is_picking:
+            self.picked.emit(-1)
+        elif vertex >= 0 and not scene.is_grouped(vertex):
             self.anchor_unwanted.emit(vertex)
         elif self._may_anchor():
             self.menu_wanted.emit(vertex, x, y)
@@ -107,34 +124,38 @@ class AnchorTool(NavigationTool):
         self._pressed_at, self._pressed_vertex = event.position(), -1
         scene = self.view.overlay.scene
         handle = scene.gizmo.handle_at(pixel, self.view.camera, self.view.size_in_pixels) if scene.gizmo is not None else None
-        if handle is not None and scene.gizmo is not None:
+        if handle is not None and scene.gizmo is not None and not self.area.is_armed:
             self._take(hold_of(self.view, scene.gizmo, handle, pixel))
             return
-        if self._box_armed or event.modifiers() & SHIFT:
-            self._box_from = event.position()
-            self._keys.listen(True)
-            scene.hint = BOX_HINT if self.can_rotate else ""
+        if self.area.takes(event):
+            self.area.press(event)
             return
         vertex = self.view.anchor_at(pixel)
+        if vertex >= 0 and event.modifiers() & CTRL:
+            self.anchor_toggled.emit(vertex, False)
+            return
         if vertex >= 0:
-            self.anchor_selected.emit(vertex)
+            if vertex not in scene.selected:  # one of several takes the others along; a mere click selects it alone
+                self.anchor_selected.emit(vertex)
         elif event.modifiers() & ALT:
             self.patch_wanted.emit(*pixel)
             return
         else:
             self._pressed_vertex = self.view.vertex_at(pixel)
-            if self._pressed_vertex < 0 or not self._is_target or self.can_rotate:
+            if self._pressed_vertex < 0 or not self.is_target or self.can_rotate:
                 # in space a drag that begins on the surface turns it; only a click sets an anchor
                 super().press(event)
                 return
             self.anchor_wanted.emit(self._pressed_vertex)  # and the same gesture may drag it
             vertex = self._pressed_vertex
-        if self._is_target:
+        self._clicked_anchor = vertex
+        if self.is_target:
             self._take(Pull(self.view, pixel))
 
     def _take(self, hold: Hold) -> None:
         self._hold = hold
         self._was_moved = False
+        self._keys.is_free = isinstance(hold, KeyHold)
         self._keys.listen(True)
         scene = self.view.overlay.scene
         scene.hint = hold.hint()
@@ -145,7 +166,8 @@ class AnchorTool(NavigationTool):
 
     def move(self, event: QMouseEvent) -> None:
         if self._hold is not None:
-            if not self._was_moved and _distance(event.position(), self._pressed_at) < 2.0:
+            is_free = isinstance(self._hold, KeyHold)
+            if not is_free and not self._was_moved and _distance(event.position(), self._pressed_at) < 2.0:
                 return
             self._was_moved = True
             self._where = event.position()
@@ -153,9 +175,8 @@ class AnchorTool(NavigationTool):
             if not self._throttle.isActive():
                 self._pass_on()
                 self._throttle.start()
-        elif self._box_from is not None:
-            self.view.overlay.scene.box = (self._box_from, event.position())
-            self.view.overlay.update()
+        elif self.area.is_drawing:
+            self.area.move(event)
         elif self._last is not None:
             super().move(event)
         else:
@@ -187,49 +208,66 @@ class AnchorTool(NavigationTool):
     def _move_to(self, where: QPointF, in_stops: bool, is_held: bool, at: float) -> None:
         assert self._hold is not None
         motion = self._hold.motion((where.x(), where.y()), in_stops=in_stops)
-        self.view.overlay.scene.hold_words = self._hold.words() if is_held else ""
-        self.view.overlay.scene.hold_at = where
+        scene = self.view.overlay.scene
+        scene.hold_words, scene.hold_at = self._hold.words() if is_held else "", where
+        scene.hint = self._hold.hint()
         self.motion_wanted.emit(motion, is_held, at)
 
     # ------------------------------------------------------------------------------------------ release
 
     def release(self, event: QMouseEvent) -> None:
-        if event.button() == LEFT and self._hold is not None:
+        if isinstance(self._hold, KeyHold):
+            super().release(event)
+        elif event.button() == LEFT and self._hold is not None:
             self._drop(event)
-        elif event.button() == LEFT and self._box_from is not None:
-            self._close_box(event)
-        elif (
-            event.button() == LEFT
-            and self._pressed_vertex >= 0
-            and _distance(event.position(), self._pressed_at) < CLICK_SLACK
-            and self.view.anchor_at(pixel_of(event)) < 0
-        ):
-            self.anchor_wanted.emit(self._pressed_vertex)
-        self._pressed_vertex = -1
-        super().release(event)
+            super().release(event)
+        elif event.button() == LEFT and self.area.is_drawing:
+            self._close_area(event)
+            super().release(event)
+        else:
+            self._click(event)
+            super().release(event)
+
+    def _click(self, event: QMouseEvent) -> None:
+        vertex, self._pressed_vertex = self._pressed_vertex, -1
+        is_click = event.button() == LEFT and vertex >= 0 and _distance(event.position(), self._pressed_at) < CLICK_SLACK
+        if is_click and self.view.anchor_at(pixel_of(event)) < 0:
+            self.anchor_wanted.emit(vertex)
 
     def _drop(self, event: QMouseEvent) -> None:
         if self._was_moved:
             self._move_to(event.position(), bool(event.modifiers() & CTRL), False, time.perf_counter())
+        elif self._clicked_anchor >= 0:
+            self.anchor_selected.emit(self._clicked_anchor)
         self.let_go()
+
+    def _close_area(self, event: QMouseEvent) -> None:
+        """A press with Shift that draws nothing is a click that adds an anchor to the selection."""
+        vertex = self.view.anchor_at(pixel_of(event))
+        if not self.area.is_armed and vertex >= 0 and _distance(event.position(), self._pressed_at) < CLICK_SLACK:
+            self.area.end()
+            self.anchor_toggled.emit(vertex, True)
+        else:
+            self.area.release(event)
 
     def let_go(self) -> None:
         """Forget a drag under way: it has ended, or another mesh came."""
         self._hold = None
         self._pending = None
+        self._clicked_anchor = self._pressed_vertex = -1
         self._throttle.stop()
         self._keys.listen(False)
         scene = self.view.overlay.scene
         scene.hold_words, scene.hint, scene.guide = "", "", None
-        self.end_box()
+        self.area.end()
 
     def cancel(self) -> None:
-        """Take a drag under way back, or draw no box."""
+        """Take a drag under way back, or draw no area."""
         if self._hold is not None:
             self.let_go()
             self.drag_cancelled.emit()
         else:
-            self.end_box()
+            self.area.end()
 
     def leave(self) -> None:
         self.hovered.emit(-1)
@@ -255,53 +293,62 @@ class AnchorTool(NavigationTool):
 
     def _lock(self, wanted: Lock) -> None:
         hold = self._hold
-        if not isinstance(hold, Pull):
+        if not isinstance(hold, Pull | KeyHold) or not hold.takes_locks:
             return
         hold.lock = toggled(hold.lock, wanted)
         scene = self.view.overlay.scene
         scene.guide = None
         if hold.lock.kind == "line":
             scene.guide = self._taken_from + np.outer([-2.0, 2.0], hold.lock.direction)
-        if self._was_moved:
+        self.move_again()
+
+    def move_again(self) -> None:
+        """What the pointer or the keys say means something else now."""
+        if self._hold is not None and (self._was_moved or isinstance(self._hold, KeyHold)):
+            self._was_moved = True
             self._move_to(self._where, False, True, time.perf_counter())
         self.view.overlay.update()
 
-    # ------------------------------------------------------------------------------------------ boxes
+    # ------------------------------------------------------------------------------------------ without a button
 
-    def arm_box(self) -> None:
-        """The next drag draws a box."""
-        self._box_armed = True
-        self._keys.listen(True)
-        self.view.overlay.setCursor(Qt.CursorShape.CrossCursor)
-        self.view.overlay.scene.hint = BOX_HINT
-        self.view.overlay.update()
+    def hold(self, deed: str) -> bool:
+        """The selected anchors follow the pointer until a click or Enter: "move", "turn" or "scale". Whether there are any."""
+        scene, overlay = self.view.overlay.scene, self.view.overlay
+        if self.is_dragging or not len(scene.selected) or not self._may_anchor() or self.view.geometry_shown is None:
+            return False
+        self.area.end()
+        pointer = QPointF(overlay.mapFromGlobal(QCursor.pos()))
+        self._pressed_at = self._where = pointer
+        centre = scene.anchor_points[scene.is_selected].mean(axis=0)
+        overlay.setFocus()
+        self._take(KeyHold(deed, self.view, centre, (pointer.x(), pointer.y())))
+        overlay.update()
+        return True
 
-    def _close_box(self, event: QMouseEvent) -> None:
-        begin, end = self._box_from or event.position(), event.position()
-        self.end_box()
-        geometry = self.view.geometry_shown
-        if geometry is None or _distance(begin, end) < CLICK_SLACK:
-            return
-        corners = np.array([[begin.x(), begin.y()], [end.x(), end.y()]])
-        pixels, heights = self.view.camera.project(geometry.points, self.view.size_in_pixels)
-        chosen = np.flatnonzero(in_box(pixels[: geometry.vertex_count], corners.min(axis=0), corners.max(axis=0)))
-        if not geometry.is_flat and not event.modifiers() & CTRL:
-            chosen = visible_points(chosen, pixels, heights, geometry.triangles)
-        if len(chosen):
-            self.group_wanted.emit(chosen)
-        else:
-            self.nothing_chosen.emit()
+    def _change_deed(self, deed: str) -> None:
+        """Another deed from the same begin; what the first one did is taken back."""
+        hold = self._hold
+        if isinstance(hold, KeyHold) and hold.deed != deed:
+            self._hold = hold.instead(deed)
+            self.view.overlay.scene.guide = None
+            self.move_again()
 
-    def end_box(self) -> None:
-        """Draw no box, or no longer."""
-        was_armed, self._box_armed, self._box_from = self._box_armed, False, None
-        self.view.overlay.scene.box = None
-        self.view.overlay.scene.hint = ""
-        self.view.overlay.unsetCursor()
-        self.view.overlay.update()
-        self._keys.listen(False)
-        if was_armed:
-            self.box_ended.emit()
+    def _type(self, character: str) -> None:
+        if isinstance(self._hold, KeyHold):
+            self._hold.type(character)
+            self.move_again()
+
+    def _confirm(self) -> None:
+        if self._hold is not None:
+            if self._was_moved:
+                self._move_to(self._where, False, False, time.perf_counter())
+            self.let_go()
+
+    def wheel(self, event: QWheelEvent) -> None:
+        if self.is_dragging and event.angleDelta().y():
+            self.wheel_turned.emit(event.angleDelta().y() / 120.0)
+        if not event.isAccepted() or not self.is_dragging:
+            super().wheel(event)
 
     # ------------------------------------------------------------------------------------------ keys
 

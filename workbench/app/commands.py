@@ -69,7 +69,6 @@ class Commands(QObject):
             "shot-window": lambda: self.ask_screenshot(window, "window"),
             "quit": window.close,
             "pin": self.pin_boundary,
-            "box": window.anchor_menu.arm_box,
             "remove": window.desk.remove_selected,
             "clear": document.clear_anchors,
             "run": document.toggle,

@@ -22,7 +22,7 @@ from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
 from workbench.app.handling.anchor_desk import AnchorDesk
-from workbench.app.handling.anchor_menu import AnchorMenu
+from workbench.app.handling.handling import Handling
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
@@ -107,7 +107,6 @@ class MainWindow(QMainWindow):
         self.turns.add(self.convergence.graphics, self.convergence.refresh)
         self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
         self._make_tools()
-        self.anchor_menu = AnchorMenu(self)
         self.sessions = SessionFiles(self)
         self.autosave = Autosave(self)
         self.time_line = TimeLine(self)
@@ -193,6 +192,7 @@ class MainWindow(QMainWindow):
         self.desk = AnchorDesk(document)
 
         def may_anchor() -> bool:
+        self.handling = Handling(self)
             return document.positions is not None
 
         self.source_tool = AnchorTool(self.source.view, is_target=False, may_anchor=may_anchor)
@@ -210,7 +210,7 @@ class MainWindow(QMainWindow):
         tool.taken_up.connect(self.desk.take_up)
         tool.motion_wanted.connect(self.desk.move)
         tool.drag_cancelled.connect(self.desk.cancel)
-        tool.group_wanted.connect(self.desk.add_group)
+        self.handling.connect_tool(tool)
         tool.anchor_unwanted.connect(document.remove_anchor)
         document.opened.connect(tool.let_go)
 

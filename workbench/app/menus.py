@@ -48,7 +48,8 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("undo", "redo"):
         edit.addAction(actions[name])
     edit.addSeparator()
-    for name in ("pin", "box", "remove", "clear"):
+    window.handling.fill_menu(edit)
+    for name in ("remove", "clear"):
         edit.addAction(actions[name])
     edit.addSeparator()
     for name in ("equations", "refine"):

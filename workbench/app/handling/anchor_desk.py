@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.document import Document
+from workbench.app.handling.motion import Motion
 from workbench.app.handling.pacing import TurnPacer
 from workbench.app.handling.rigid_motion import RigidMotion
 from workbench.core.arrays import Integers
@@ -33,7 +34,7 @@ class AnchorDesk(QObject):
         self._document = document
         self._vertices: Integers = np.empty(0, np.int64)
         self._before = AnchorSet.none()
-        self._wanted: RigidMotion | None = None
+        self._wanted: Motion | None = None
         self._pacer: TurnPacer | None = None
         self._is_held = False
         self._best, self._best_at = 0.0, 0.0
@@ -55,7 +56,7 @@ class AnchorDesk(QObject):
         self._vertices = self._document.selected_anchors
         self._before = self._document.anchors
 
-    def move(self, motion: RigidMotion, is_held: bool, at: float | None = None) -> None:
+    def move(self, motion: Motion, is_held: bool, at: float | None = None) -> None:
         """Move what was taken up; a turn goes ahead of the map no further than the map can tell which way it went round."""
         if not len(self._vertices):
             return
@@ -88,7 +89,7 @@ class AnchorDesk(QObject):
         if part < 1.0 and not waits:
             self.given_up.emit(math.degrees(part * self._wanted.angle))
 
-    def _send(self, motion: RigidMotion, is_held: bool, at: float | None) -> None:
+    def _send(self, motion: Motion, is_held: bool, at: float | None) -> None:
         anchors = self._document.anchors
         targets = motion.of(self._before.targets_of(self._vertices))
         self._document.set_anchors(anchors.moved(self._vertices, targets), dragging=is_held, at=at)

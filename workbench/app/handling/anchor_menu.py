@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class AnchorMenu(QObject):
-    """Connects both tools of a window to its desk and document."""
+    """Opens at the pointer of any tool of a window, and asks its desk and document."""
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
@@ -28,18 +28,18 @@ class AnchorMenu(QObject):
         self._patches: Patches | None = None
         self.menu: QMenu | None = None
         self.dialog: PlaceDialog | None = None
-        for tool, other in ((window.source_tool, window.target_tool), (window.target_tool, window.source_tool)):
-            tool.box_ended.connect(other.end_box)
-            tool.patch_wanted.connect(lambda x, y, t=tool: self.anchor_patch(t.view, (x, y)))
-            tool.menu_wanted.connect(lambda vertex, x, y, t=tool: self._open(t, vertex, (x, y)))
-            tool.numbers_wanted.connect(self.ask_numbers)
-            tool.nothing_chosen.connect(lambda: window.status.say("No vertex is in the box."))
         self._desk.given_up.connect(
             lambda degrees: window.status.say(f"The turn ends at {degrees:.0f}°: the map cannot follow any further.")
         )
         self._document.opened.connect(self._forget)
         self._document.anchors_changed.connect(self._show_numbers)
         self._document.selection_changed.connect(self._show_numbers)
+
+    def connect_tool(self, tool: AnchorTool) -> None:
+        """Serve one more tool."""
+        tool.patch_wanted.connect(lambda x, y: self.anchor_patch(tool.view, (x, y)))
+        tool.menu_wanted.connect(lambda vertex, x, y: self._open(tool, vertex, (x, y)))
+        tool.numbers_wanted.connect(self.ask_numbers)
 
     def _forget(self) -> None:
         self._patches = None
@@ -51,13 +51,21 @@ class AnchorMenu(QObject):
     def _open(self, tool: AnchorTool, vertex: int, pixel: Pixel) -> None:
         view, document, desk = tool.view, self._document, self._desk
         menu = QMenu(self._window)
+        actions = self._window.actions_by_name
         if vertex >= 0:
-            document.select(vertex)
+            is_one_of_many = len(document.selection) > 1 and vertex in document.selected_anchors
+            if not is_one_of_many:
+                document.select(vertex)
             count = len(document.selected_anchors)
             menu.addAction("Place by numbers…").triggered.connect(self.ask_numbers)
+            for name in ("move", "turn", "scale"):
+                menu.addAction(actions[name])
             menu.addSeparator()
-            menu.addAction(f"Let go of all {count} of the group").triggered.connect(desk.remove_selected)
+            which = "selected" if is_one_of_many else "of the group"
+            menu.addAction(f"Let go of all {count} {which}").triggered.connect(desk.remove_selected)
             menu.addAction("Let go of this anchor").triggered.connect(lambda: document.remove_anchor(vertex))
+            if is_one_of_many:
+                menu.addAction(actions["group"])
             menu.addAction("Let each move alone").triggered.connect(desk.split_selected)
         else:
             near = view.vertex_at(pixel)
@@ -67,10 +75,8 @@ class AnchorMenu(QObject):
             noun = "side" if self._patches_now().is_figure else "face"
             action = menu.addAction(f"Anchor this {noun}\tAlt+click")
             action.triggered.connect(lambda: self.anchor_patch(view, pixel))
-            menu.addAction(self._window.actions_by_name["box"])
-            menu.addSeparator()
-            for name in ("pin", "clear"):
-                menu.addAction(self._window.actions_by_name[name])
+            for name in ("box", "lasso", "", "pin", "", "select-box", "select-lasso", "select-all", "", "clear"):
+                menu.addAction(actions[name]) if name else menu.addSeparator()
         menu.aboutToHide.connect(menu.deleteLater)
         self.menu = menu
         menu.popup(view.overlay.mapToGlobal(QPoint(round(pixel[0]), round(pixel[1]))))
@@ -98,14 +104,6 @@ class AnchorMenu(QObject):
         if self._patches is None:
             self._patches = Patches(loaded.mesh, loaded.neighbours)
         return self._patches
-
-    # ------------------------------------------------------------------------------------------ boxes
-
-    def arm_box(self) -> None:
-        """The next drag in either view draws a box."""
-        for tool in (self._window.source_tool, self._window.target_tool):
-            tool.arm_box()
-        self._window.status.say("Drag a box in either view; Esc gives it up.")
 
     # ------------------------------------------------------------------------------------------ numbers
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from workbench.app.handling.gizmo import RADIUS, Gizmo, Handle
 from workbench.app.handling.locks import FREE, Lock, pulled
+from workbench.app.handling.motion import Motion
 from workbench.app.handling.rigid_motion import RigidMotion
 from workbench.app.handling.turning import Turning, snapped
 from workbench.app.views.camera import Pixel
@@ -21,7 +22,7 @@ class Hold(Protocol):
 
     lock: Lock
 
-    def motion(self, pixel: Pixel, *, in_stops: bool) -> RigidMotion: ...
+    def motion(self, pixel: Pixel, *, in_stops: bool) -> Motion: ...
 
     def words(self) -> str:
         """What to say beside the pointer; empty where there is nothing to say."""
@@ -34,6 +35,8 @@ class Hold(Protocol):
 
 class Pull:
     """Anchors are pulled; the pointer keeps the place at which it took them."""
+
+    takes_locks = True
 
     def __init__(self, view: MeshView, begin: Pixel, lock: Lock = FREE) -> None:
         self._view = view

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from workbench.app.handling.rigid_motion import RigidMotion
+from workbench.app.handling.motion import Motion
 from workbench.core.arrays import Floats
 
 AHEAD = 1.2
@@ -24,7 +24,7 @@ class TurnPacer:
         self._axis: Floats = np.zeros(3)
         self._reached = 0.0
 
-    def part(self, motion: RigidMotion, places: Floats) -> float:
+    def part(self, motion: Motion, places: Floats) -> float:
         """Part of a turn, in [0, 1], that may be asked for while the group is at `places` (k, d)."""
         if not motion.angle:
             return 1.0

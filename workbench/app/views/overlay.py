@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QContextMenuEvent,
@@ -16,6 +16,7 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
+    QPolygonF,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QWidget
@@ -26,6 +27,7 @@ from workbench.app.theme import LIGHT, LIMITING, Theme
 from workbench.app.views.anchor_paint import paint_anchors
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo
+from workbench.app.views.sketch import Sketch, paint_outline, paint_sketch
 from workbench.core.arrays import Booleans, Integers
 
 if TYPE_CHECKING:
@@ -46,7 +48,8 @@ class OverlayScene:
     vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
     are selected, and that move with others; `soft` and `off` of those that are soft, and that hold nothing. `hot_handle` is
     the kind and axis of the handle of the `gizmo` that is meant; `guide` (2, 3) the line along which anchors are pulled,
-    `hold_words` what to say about that at the pixel `hold_at`; `box` two corners in pixels; `hint` a line at the lower edge, what keys and buttons would do now.
+    `hold_words` what to say about that at the pixel `hold_at`; `outline` what is drawn round anchors, in pixels; `hint`
+    lines at the lower edge, what keys and buttons would do now; `sketches` what tools draw, by name.
     """
 
     anchor_vertices: Integers = field(default_factory=lambda: np.empty(0, np.int64))
@@ -61,8 +64,9 @@ class OverlayScene:
     guide: Points | None = None
     hold_words: str = ""
     hold_at: QPointF = field(default_factory=QPointF)
-    box: tuple[QPointF, QPointF] | None = None
+    outline: QPolygonF | None = None
     hint: str = ""
+    sketches: dict[str, Sketch] = field(default_factory=dict)
     hovered: int = -1
     hovered_point: Points | None = None
     limiting: Points | None = None
@@ -139,12 +143,15 @@ class Overlay(QWidget):
             self._paint_message(painter)
         self._paint_limiting(painter)
         self._paint_guide(painter)
+        for sketch in self.scene.sketches.values():
+            paint_sketch(painter, sketch, self._view, self.theme)
         self._paint_anchors(painter)
         if self.scene.gizmo is not None:
             view = self._view
             paint_gizmo(painter, self.scene.gizmo, self.scene.hot_handle, view.camera, view.size_in_pixels, self.theme)
         self._paint_hovered(painter)
-        self._paint_box(painter)
+        if self.scene.outline is not None:
+            paint_outline(painter, self.scene.outline, self.theme)
         self._label(painter, self.scene.hold_at + QPointF(16, -10), self.scene.hold_words)
         self._label(painter, QPointF(8, self.height() - 6), self.scene.hint)
         painter.end()
@@ -197,14 +204,6 @@ class Overlay(QWidget):
             painter.setPen(QPen(QColor(self.theme.accent), 1.2, Qt.PenStyle.DashDotLine))
             painter.drawLine(QPointF(*begin), QPointF(*end))
 
-    def _paint_box(self, painter: QPainter) -> None:
-        if self.scene.box is not None:
-            colour = QColor(self.theme.accent)
-            painter.setPen(QPen(colour, 1.4, Qt.PenStyle.DashLine))
-            colour.setAlpha(40)
-            painter.setBrush(colour)
-            painter.drawRect(QRectF(*self.scene.box).normalized())
-
     def _paint_hovered(self, painter: QPainter) -> None:
         scene = self.scene
         if scene.hovered < 0 or scene.hovered_point is None:
@@ -221,7 +220,7 @@ class Overlay(QWidget):
         if not text:
             return
         metrics = painter.fontMetrics()
-        box = QRectF(metrics.boundingRect(text)).adjusted(-6, -3, 6, 3)
+        box = QRectF(metrics.boundingRect(QRect(0, 0, 10_000, 0), Qt.AlignmentFlag.AlignLeft, text)).adjusted(-6, -3, 6, 3)
         box.moveTopLeft(at + QPointF(0, -box.height()))
         # near an edge of the view the label turns back inside
         box.moveLeft(min(max(box.left(), 2.0), self.width() - box.width() - 2.0))
@@ -232,4 +231,4 @@ class Overlay(QWidget):
         painter.setBrush(paper)
         painter.drawRoundedRect(box, 4, 4)
         painter.setPen(QColor(self.theme.text))
-        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+        painter.drawText(box.adjusted(6, 0, -6, 0), Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)

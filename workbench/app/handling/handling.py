@@ -1,0 +1,159 @@
+"""Anchors chosen and moved by hand beyond a plain drag: which tool, key or menu asks for what."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QCursor
+from PySide6.QtWidgets import QMenu
+
+from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.anchor_menu import AnchorMenu
+from workbench.app.handling.area_drawing import AreaMode
+from workbench.core.arrays import Integers
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+NOTHING_SELECTED = "No anchor is selected: click one, with Shift more of them, or draw a lasso round them (Shift+L)."
+
+
+class Handling(QObject):
+    """Knows every tool of a window that sets and moves anchors."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._document, self._desk = window.document, window.desk
+        self._tools: list[AnchorTool] = []
+        self.menu = AnchorMenu(window)
+        self._mode = AreaMode()
+        self._through = window.actions_by_name["through"]
+        deeds = {
+            "box": lambda: self.arm("box", "anchor"),
+            "lasso": lambda: self.arm("lasso", "anchor"),
+            "select-box": lambda: self.arm("box", "select"),
+            "select-lasso": lambda: self.arm("lasso", "select"),
+            "select-all": lambda: self._document.select_all(self._document.anchors.targets),
+            "through": self._set_through,
+            "group": self.group,
+            "ungroup": self._desk.split_selected,
+            "move": lambda: self.hold("move"),
+            "turn": lambda: self.hold("turn"),
+            "scale": lambda: self.hold("scale"),
+        }
+        for name, deed in deeds.items():
+            window.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
+
+    def connect_tool(self, tool: AnchorTool) -> None:
+        """Let one more tool ask."""
+        self._tools.append(tool)
+        tool.destroyed.connect(lambda: self._tools.remove(tool))
+        self.menu.connect_tool(tool)
+        tool.area.mode = self._mode
+        tool.area.chosen.connect(self._take_area)
+        tool.area.nothing_chosen.connect(self._say_nothing)
+        tool.area.ended.connect(self._end_areas)
+        tool.area.mode_changed.connect(self._show_mode)
+        tool.anchor_toggled.connect(self.toggle)
+
+    # ------------------------------------------------------------------------------------------ choosing
+
+    def arm(self, shape: str, deed: str) -> None:
+        """The next drag in any view draws a "box" or a "lasso", to "anchor" vertices or to "select" anchors."""
+        if self._document.positions is None:
+            return
+        self._mode.shape, self._mode.deed = shape, deed
+        for tool in self._tools:
+            tool.area.arm()
+        self._show_mode()
+
+    def _show_mode(self) -> None:
+        self._through.setChecked(self._mode.through)
+        armed = [tool for tool in self._tools if tool.area.is_armed]
+        for tool in armed:
+            tool.area.show_hint()
+        if armed:
+            self._window.status.say(f"{armed[0].area.words()}: drag in any view; Esc leaves.")
+
+    def _set_through(self) -> None:
+        self._mode.through = self._through.isChecked()
+        self._show_mode()
+
+    def _end_areas(self) -> None:
+        for tool in self._tools:
+            if tool.area.is_armed:
+                tool.area.end()
+        self._window.status.say("")
+
+    def _take_area(self, vertices: Integers, deed: str, how: str) -> None:
+        document = self._document
+        if deed == "select":
+            self._combine(vertices, how)
+        elif how == "remove":
+            self._desk.remove(vertices)
+        elif how == "add":
+            before = document.selection
+            document.pin(vertices)
+            document.select_all([*before, *vertices.tolist()])
+        else:
+            self._desk.add_group(vertices)
+        count = len(document.selected_anchors)
+        self._window.status.say("" if how == "remove" and deed == "anchor" else _selected(count))
+
+    def _combine(self, vertices: Integers, how: str) -> None:
+        """Groups go whole: one of a group stands for all of it."""
+        document = self._document
+        chosen = set(document.anchors.together_with(vertices.tolist()).tolist())
+        before = [] if how == "replace" else document.selected_anchors.tolist()
+        kept = [v for v in before if v not in chosen]
+        document.select_all(kept if how == "remove" else [*kept, *sorted(chosen)])
+
+    def toggle(self, vertex: int, wanted: bool) -> None:
+        """Select one more anchor, or, where it is selected already or is not `wanted`, one less."""
+        is_selected = vertex in self._document.selected_anchors
+        self._combine(np.array([vertex]), "remove" if is_selected or not wanted else "add")
+
+    def _say_nothing(self) -> None:
+        what = "vertex" if self._mode.deed == "anchor" else "anchor"
+        self._window.status.say(f"No {what} is in the {self._mode.shape}.")
+
+    def group(self) -> None:
+        """The selected anchors move together from now on."""
+        document, selected = self._document, self._document.selected_anchors
+        if len(selected) > 1:
+            document.set_anchors(document.anchors.grouped(selected))
+            self._window.status.say(f"{len(selected)} anchors are one group now.")
+        else:
+            self._window.status.say(NOTHING_SELECTED.replace("No anchor is", "Fewer than two anchors are"))
+
+    # ------------------------------------------------------------------------------------------ moving
+
+    def hold(self, deed: str) -> None:
+        """Let the selected anchors follow the pointer, in the target that it is over."""
+        targets = [tool for tool in self._tools if tool.is_target]
+        over = [tool for tool in targets if tool.view.rect().contains(tool.view.mapFromGlobal(QCursor.pos()))]
+        if any(tool.is_dragging for tool in targets):
+            return
+        if not (over or targets)[0].hold(deed):
+            self._window.status.say(NOTHING_SELECTED)
+
+    def fill_menu(self, menu: QMenu) -> None:
+        """What is offered for choosing, pinning and moving."""
+        actions = self._window.actions_by_name
+        for title, names in (
+            ("&Select anchors", ("select-all", "select-box", "select-lasso", "through", "", "group", "ungroup")),
+            ("&Pin", ("pin", "box", "lasso")),
+            ("&Move", ("move", "turn", "scale")),
+        ):
+            part = menu.addMenu(title)
+            for name in names:
+                part.addAction(actions[name]) if name else part.addSeparator()
+
+
+def _selected(count: int) -> str:
+    if count == 0:
+        return "No anchor is selected."
+    return "1 anchor is selected." if count == 1 else f"{count} anchors are selected: G moves, R turns, S scales them."
