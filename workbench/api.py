@@ -66,6 +66,19 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from workbench.io.opening import OpenedSource
+    from workbench.notebook import Drawing, Measured, Solution, Source, figure, load, measure, solve
+
+FOR_NOTEBOOKS = ("Drawing", "Measured", "Solution", "Source", "figure", "load", "measure", "solve")
+"""Names that are found when they are first asked for: plugins do without what they need."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in FOR_NOTEBOOKS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import workbench.notebook
+
+    found = globals()[name] = getattr(workbench.notebook, name)
+    return found
 
 
 def map_from_file(path: str, mesh: Mesh, kind: Kind) -> Floats:
@@ -114,6 +127,7 @@ __all__ = [
     "Derivatives",
     "DescentSolver",
     "Distortion",
+    "Drawing",
     "Evaluation",
     "Extrapolated",
     "Floats",
@@ -125,6 +139,7 @@ __all__ = [
     "LaplacianDescentSolver",
     "LaplacianSystem",
     "LinearConstraints",
+    "Measured",
     "Mesh",
     "MeshError",
     "NewtonSolver",
@@ -137,7 +152,9 @@ __all__ = [
     "Refined",
     "RunResult",
     "SingularMatrixError",
+    "Solution",
     "Solver",
+    "Source",
     "StartRequest",
     "State",
     "Status",
@@ -161,6 +178,7 @@ __all__ = [
     "dirichlet_matrix",
     "disc_boundary",
     "extrapolate",
+    "figure",
     "free_gradient",
     "global_injectivity",
     "grown_step",
@@ -171,12 +189,14 @@ __all__ = [
     "laplacian",
     "largest_step",
     "largest_step_without_inversion",
+    "load",
     "local_injectivity",
     "make_pair",
     "make_sample",
     "map_disc",
     "map_from_file",
     "match_source_frame",
+    "measure",
     "measure_map",
     "moved_state",
     "never",
@@ -191,6 +211,7 @@ __all__ = [
     "signed_areas",
     "simplex_table",
     "solid_boundary",
+    "solve",
     "solve_with_fixed",
     "solver",
     "unblocked_direction",

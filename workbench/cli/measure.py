@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import argparse
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from workbench.cli.options import add_source_options
 from workbench.cli.output import check_places
 from workbench.cli.settings import add_set_option
 from workbench.core.errors import WorkbenchError
 from workbench.io.json_text import json_text
-from workbench.io.tables import number, table
 
 if TYPE_CHECKING:
     from workbench.core.measure import Measure
@@ -40,6 +39,7 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
 def run(options: argparse.Namespace) -> int:
     """Measure, print, write."""
     from workbench.core.quality import measure_map, simplex_table
+    from workbench.io.measure_text import measure_lines
     from workbench.io.write import write_simplices
 
     check_places([options.simplices] if options.simplices else [])
@@ -49,7 +49,7 @@ def run(options: argparse.Namespace) -> int:
     if options.simplices:
         table = simplex_table(opened.mesh, opened.positions, others)
         write_simplices(options.simplices, opened.mesh, opened.positions, table)
-    print(json_text(measured) if options.json else _text(measured), end="")
+    print(json_text(measured) if options.json else "\n".join(measure_lines(measured)) + "\n", end="")
     return 0
 
 
@@ -83,18 +83,3 @@ def _measures(texts: list[str], settings: list[tuple[str, str]]) -> tuple[Measur
         given = Distortion.resolve(text, values).parameter_values
         measures.append(Measure.of(text, {name: given[name] for name in values}))
     return tuple(measures)
-
-
-def _text(measured: dict[str, Any]) -> str:
-    names = ("mean", "min", "p50", "p95", "max", "area_weighted_mean")
-    rows = [["measure", *names]]
-    rows += [[id, *(number(values[name]) for name in names)] for id, values in measured["measures"].items()]
-    verdict = measured["injective"]
-    words = {True: "yes", False: "no", None: "not known"}
-    lines = (
-        table(rows),
-        "inverted {inverted}, degenerate {degenerate}, least det {min_det:.6g}".format_map(measured),
-        f"locally injective: {words[verdict['local']]}, globally injective: {words[verdict['global']]}",
-        verdict["reason"],
-    )
-    return "\n".join(lines) + "\n"
