@@ -77,7 +77,7 @@ class ReadingPanel(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         paper = QColor(self.theme.base)
-        paper.setAlpha(238)
+        paper.setAlpha(250)
         painter.setPen(QPen(QColor(self.theme.border), 1))
         painter.setBrush(paper)
         painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4)

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QPoint, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QMouseEvent
 
+from workbench.app.quantities import Quantity
 from workbench.app.readings.reading_panel import ReadingPanel
 from workbench.app.readings.reading_text import words_of
 from workbench.app.splitting.leaf import Leaf
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Evaluator
+from workbench.core.registry import registry
 from workbench.core.simplex_reading import read_simplex
 
 if TYPE_CHECKING:
@@ -22,6 +24,7 @@ PAUSE = 30
 """Milliseconds between two readings while the pointer moves."""
 PAUSE_OF_MAPS = 120
 """The same while the map changes below a pointer that rests."""
+LONGEST_NAME = 24
 
 
 class Readings(QObject):
@@ -62,6 +65,8 @@ class Readings(QObject):
 
     def _wanted(self, on: bool) -> None:
         if on:
+            if self._window.document.mesh is not None and self._window.quantities.is_listed:
+                self._evaluators(self._window.document.mesh.dimension)  # a tenth of a second, once
             self._window.status.say("Point at a triangle or tetrahedron; Ctrl+Shift+C copies its numbers.")
         else:
             self.hide()
@@ -101,17 +106,17 @@ class Readings(QObject):
             self.panel.hide()
             return
         reading = read_simplex(mesh, positions, simplex, self._evaluators(mesh.dimension))
-        text = words_of(reading, leaf.view.vertex_at(pixel), mesh.simplex_noun(), self._shown_in(leaf))
+        text = words_of(reading, leaf.view.vertex_at(pixel), mesh.simplex_noun(), self._name_of_shown(leaf))
         where = leaf.view.mapTo(self._window, QPoint(round(pixel[0]), round(pixel[1])))
         self.panel.show_text(text, where)
 
-    def _shown_in(self, leaf: Leaf) -> str:
-        """Title of the quantity that a view is coloured by."""
+    def _name_of_shown(self, leaf: Leaf) -> str:
+        """Name of the quantity that a view is coloured by."""
         id, book = self._window.splitting.shown_in(leaf), self._window.quantities
-        return book[id].title if id in book else ""
+        return short_name(book[id]) if id in book else ""
 
     def _evaluators(self, dimension: int) -> dict[str, Evaluator]:
-        """Every measure that there is, by its title; made once as long as they stay the same."""
+        """Every measure that there is, by its short name; made once as long as they stay the same."""
         quantities = self._window.quantities.quantities
         if self._measures_of != (dimension, quantities):
             self._measures_of, self._measures = (dimension, quantities), {}
@@ -119,7 +124,7 @@ class Readings(QObject):
                 if quantity.measure.text in DESCRIPTORS:
                     continue  # they stand above
                 try:
-                    self._measures[quantity.title] = quantity.measure.prepare(dimension)
+                    self._measures[short_name(quantity)] = quantity.measure.prepare(dimension)
                 except WorkbenchError:
                     continue  # not one of this dimension
         return self._measures
@@ -135,3 +140,11 @@ class Readings(QObject):
     def stop(self) -> None:
         self._timer.stop()
         self._window.theme_switch.changed.disconnect(self.panel.set_theme)
+
+
+def short_name(quantity: Quantity) -> str:
+    """A quantity in few letters, and where the survey has it."""
+    found = registry().distortions.get(quantity.id)
+    name = found.short if found is not None and found.short else quantity.label
+    name = name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 1]}…"
+    return f"{name} {quantity.equation}".rstrip()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QToolButton, QWidget
@@ -21,8 +22,10 @@ class PaneTools(QWidget):
     def __init__(self, fill_menu: Callable[[QMenu], None], theme: Theme, line: QWidget) -> None:
         super().__init__(line)
         self._fill_menu = fill_menu
+        self._theme = theme
         self.chain = self._button("chain", LINKED)
         self.chain.setCheckable(True)
+        self.chain.toggled.connect(lambda _: self._show_chain())
         self.chain.toggled.connect(self.link_toggled)
         self.more = self._button("split", "Split this view, close it, and what it draws")
         self.more.clicked.connect(lambda: self.open_menu(self.more.mapToGlobal(self.more.rect().bottomLeft())))
@@ -46,8 +49,14 @@ class PaneTools(QWidget):
         return button
 
     def set_theme(self, theme: Theme) -> None:
-        for button in (self.chain, self.more):
-            button.setIcon(icon(button.objectName(), theme))
+        self._theme = theme
+        self.more.setIcon(icon("split", theme))
+        self._show_chain()
+
+    def _show_chain(self) -> None:
+        """In the colour of what is on, as some themes draw a pressed button like any other."""
+        theme = self._theme
+        self.chain.setIcon(icon("chain", replace(theme, text=theme.accent if self.chain.isChecked() else theme.faint)))
 
     def open_menu(self, where: QPoint) -> None:
         """The menu at a place of the screen."""
