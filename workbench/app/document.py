@@ -13,6 +13,7 @@ from workbench.app.anchor_set import AnchorSet
 from workbench.app.choices import PROBLEM_FIELDS, SOLVER_FIELDS, START_FIELDS, EarlierChoices
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_anchors import SAMPLE, first_anchors
+from workbench.app.first_start import with_own_start
 from workbench.app.orders import Orders
 from workbench.app.quantities import Quantity
 from workbench.app.sessions.restoring import (
@@ -287,6 +288,10 @@ class Document(QObject):
             if wanted is not None:
                 self._go_on_to(wanted, snapshot.positions)
                 return
+            if (begun := with_own_start(self.loaded, self.session)) is not self.session:
+                self.session = begun
+                self._make_start()
+                self.session_changed.emit()
             anchors = first_anchors(self.loaded, self.session.source, snapshot.positions)
             if len(anchors):
                 self._put_anchors(anchors)

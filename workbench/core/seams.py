@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.core.arrays import Booleans
+from workbench.core.arrays import Booleans, Floats
 from workbench.core.facets import FacetTable
-from workbench.core.mesh import TextureCoordinates
+from workbench.core.mesh import Mesh, TextureCoordinates
 
 
 def seam_pairs(texture: TextureCoordinates, table: FacetTable) -> Booleans:
@@ -19,3 +19,15 @@ def seam_pairs(texture: TextureCoordinates, table: FacetTable) -> Booleans:
     corner_value = value[texture.corners.ravel()]
     left, right = table.corners[table.pairs[:, 0]], table.corners[table.pairs[:, 1]]
     return np.asarray((corner_value[left] != corner_value[right]).any(axis=1))
+
+
+def texture_at_vertices(mesh: Mesh) -> Floats | None:
+    """Texture coordinates (n, 2) of the vertices; None where a corner has none, or a seam leaves a vertex with several."""
+    texture = mesh.texture
+    if texture is None or (texture.corners < 0).any():
+        return None
+    corners, values = mesh.simplices.ravel(), texture.coordinates[texture.corners.ravel()]
+    found = np.full((mesh.vertex_count, 2), np.nan)
+    found[corners] = values
+    is_map = bool((found[corners] == values).all() and np.isfinite(found).all())
+    return found if is_map else None

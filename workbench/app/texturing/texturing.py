@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.texturing.picture_file import read_picture
@@ -14,6 +15,8 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import Pattern, Pixels, Texture
 from workbench.core.errors import WorkbenchError
 
+OTHER_SIZE = 1.8
+"""Factor of the size of a map from which on the pattern is fitted to it anew: until then it does not swim."""
 LARGEST = 20.0
 """Factor of the usual size up to which tiles can be chosen; the inverse is the smallest."""
 
@@ -38,6 +41,7 @@ class Texturing(QObject):
         self._source, self._target = source, target
         self.layout = PatternLayout()
         self._picture: Pixels | None = None
+        self._centre, self._unit = np.zeros(2, np.float32), 1.0
 
     @property
     def has_picture(self) -> bool:
@@ -62,12 +66,25 @@ class Texturing(QObject):
         return Texture(pattern, layout.size, layout.degrees, self._picture, self._points)
 
     def _points(self) -> Points | None:
-        """Points of the source or the map; those of a surface in space have no flat place of their own."""
+        """Points of the source or the map, about the middle, in units of their diameter.
+
+        A surface in space has no flat place of its own: there it is always the map.
+        """
         source, target = self._source.geometry_shown, self._target.geometry_shown
-        if source is not None and target is not None and self.layout.of_source:
-            is_surface = source.simplices.shape[1] == 3 and not source.is_flat
-            return target.points if is_surface else source.points
-        return None if target is None else target.points
+        if source is None or target is None:
+            return None
+        is_surface = source.simplices.shape[1] == 3 and not source.is_flat
+        if self.layout.of_source and not is_surface:
+            return source.points
+        self._fit(target.points)
+        return np.asarray((target.points[:, :2] - self._centre) / np.float32(self._unit))
+
+    def _fit(self, points: Points) -> None:
+        """A start of its own size may be far from the map before it."""
+        low, high = (np.array([end(column) for column in points.T]) for end in (np.min, np.max))
+        diameter = float(np.linalg.norm(high - low))
+        if diameter > 0 and not 1.0 / OTHER_SIZE < diameter / self._unit < OTHER_SIZE:
+            self._centre, self._unit = (0.5 * (low + high)[:2]).astype(np.float32), diameter
 
     # ------------------------------------------------------------------------------------------ memory
 
@@ -77,10 +94,10 @@ class Texturing(QObject):
 
     def take_kept(self, kept: Mapping[str, Any]) -> None:
         """Take up what `kept` gave; values of another kind, and a picture that is gone, are passed over."""
-        size, degrees, path = kept.get("size"), kept.get("degrees"), kept.get("picture")
+        path = kept.get("picture")
         self.choose(
-            size=float(size) if _is_within(size, 1.0 / LARGEST, LARGEST) else 1.0,
-            degrees=float(degrees) if _is_within(degrees, -360.0, 360.0) else 0.0,
+            size=number_within(kept.get("size"), 1.0 / LARGEST, LARGEST, 1.0),
+            degrees=number_within(kept.get("degrees"), -360.0, 360.0, 0.0),
             of_source=kept.get("of_source") is True,
         )
         if isinstance(path, str) and path:
@@ -90,5 +107,7 @@ class Texturing(QObject):
                 return
 
 
-def _is_within(value: object, low: float, high: float) -> Any:
-    return isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
+def number_within(value: object, low: float, high: float, otherwise: float) -> float:
+    """A kept number, where it is one within bounds."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
+    return float(value) if is_number else otherwise  # type: ignore[arg-type]
