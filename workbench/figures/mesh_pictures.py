@@ -122,7 +122,7 @@ def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, 
     raster = _raster(points, skin, frame, on_top)
     image = raster.of_triangles(colours)
     if points.shape[1] == 3:
-        image = image * raster.of_triangles(_shades(points, skin))[..., None]
+        image = image * raster.of_triangles(shades(points, skin))[..., None]
     return _averaged(image, raster)
 
 
@@ -136,7 +136,7 @@ def textured_picture(points: Floats, skin: Skin, coordinates: Floats, square: fl
     place = np.floor(raster.of_vertices(skin.triangles, coordinates) / square + 0.37)
     image = np.array(TEXTURE)[(place.sum(axis=2) % 2).astype(np.int64)]
     if points.shape[1] == 3:
-        image = image * raster.of_triangles(_shades(points, skin))[..., None]
+        image = image * raster.of_triangles(shades(points, skin))[..., None]
     return _averaged(image, raster)
 
 
@@ -155,7 +155,7 @@ def _raster(points: Floats, skin: Skin, frame: Frame, on_top: Booleans | None) -
     return rasterise(pixels, skin.triangles, width, height, None if on_top is None else on_top.astype(np.int64))
 
 
-def _shades(points: Floats, skin: Skin) -> Floats:
+def shades(points: Floats, skin: Skin) -> Floats:
     """(k,) in (0, 1]: how light falls on either side of each triangle."""
     p, q, r = points[skin.triangles].transpose(1, 0, 2)
     normal = np.cross(q - p, r - p)
