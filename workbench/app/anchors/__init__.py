@@ -1,0 +1,1 @@
+"""Anchors as a table: shown, edited, copied, pasted, read and written."""
