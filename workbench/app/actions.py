@@ -48,6 +48,8 @@ TEXTS: dict[str, ActionText] = {
     "turn": ActionText("&Turn anchors", ("R",), "Turn the selected anchors; X, Y, Z: axis, or type degrees (R)"),
     "scale": ActionText("&Scale anchors", ("S",), "Scale the selected anchors; X, Y, Z: axis, or type a factor (S)"),
     "remove": ActionText("&Remove selected anchors", ("Del", "Backspace")),
+    "import-anchors": ActionText("I&mport anchors…", (), "Read anchors from a CSV file, or from one of a spreadsheet"),
+    "export-anchors": ActionText("E&xport anchors…", (), "Write vertices, targets, weights and groups as a CSV file"),
     "clear": ActionText("&Clear anchors", ("Ctrl+Shift+A",), "Remove all anchors", "clear"),
     "equations": ActionText("&Linear equations…", ("Ctrl+L",), "Bind coordinates of the map, by equations typed or in a file"),
     "run": ActionText("Run", ("Space",), "Run or pause the solver (Space)", "run"),

@@ -430,12 +430,12 @@ class Document(QObject):
 
     # ------------------------------------------------------------------------------------------ anchors
 
-    def set_anchors(self, anchors: AnchorSet, *, dragging: bool = False, at: float | None = None) -> None:
-        """Take these anchors; `at` is the time of the event behind it, for the drag meter."""
+    def set_anchors(self, anchors: AnchorSet, *, dragging: bool = False, at: float | None = None, name: str = "") -> None:
+        """Take these anchors; `at` is the time of the event behind it, for the drag meter, `name` what the step is called."""
         if self.mesh is None:
             return
         if anchors != self.anchors and not self._is_told:  # a drag is one step
-            self._announce(name_of_anchor_change(self.anchors, anchors))
+            self._announce(name or name_of_anchor_change(self.anchors, anchors))
         self._is_told = dragging and (self._is_told or anchors != self.anchors)
         self.is_held = dragging
         self._put_anchors(anchors, dragging, at)

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QVBoxLayout, QWi
 
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
+from workbench.app.anchors.anchor_files import AnchorFiles
 from workbench.app.carrying.carried_view import CarriedView
 from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
@@ -180,8 +181,11 @@ class MainWindow(QMainWindow):
         self.steps = UndoDock(self.undoing, self.actions_by_name["undo"], self.actions_by_name["redo"], self)
         self.addDockWidget(LEFT, self.steps)
         self.steps.hide()
+        self.anchor_files = AnchorFiles(self)
+        self.tabifyDockWidget(self.convergence, self.anchor_files.dock)
+        self.anchor_files.dock.hide()
         first: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
-        self.docks: list[QDockWidget] = [*first, self.inspector, self.steps]
+        self.docks: list[QDockWidget] = [*first, self.inspector, self.steps, self.anchor_files.dock]
 
     def _make_status(self) -> None:
         self.status = StatusLine(self)
@@ -297,6 +301,8 @@ class MainWindow(QMainWindow):
         """Open a file, or `sample:ID`."""
         if source.startswith("sample:"):
             self.document.open_sample(source.removeprefix("sample:"))
+        elif self.anchor_files.takes(source):
+            self.anchor_files.read(str(Path(source).expanduser()))
         elif self.sessions.takes(source):
             self.sessions.open(str(Path(source).expanduser()))
         elif self.textures.takes(source):
@@ -351,6 +357,7 @@ class MainWindow(QMainWindow):
             self.undoing.wait()
             self.inspector.wait()
             self.commands.wait()
+            self.anchor_files.wait()
             self.carried.wait()
             self.time_line.wait()
             self.theme_switch.changed.disconnect(self._apply_theme)

@@ -49,7 +49,7 @@ def fill_menus(window: MainWindow) -> None:
         edit.addAction(actions[name])
     edit.addSeparator()
     window.handling.fill_menu(edit)
-    for name in ("remove", "clear"):
+    for name in ("remove", "clear", "import-anchors", "export-anchors"):
         edit.addAction(actions[name])
     edit.addSeparator()
     for name in ("equations", "refine"):
