@@ -108,7 +108,7 @@ class Workspace:
             self.seconds[part] += time.perf_counter() - begin
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Problem:
     """A minimisation over the maps of one source; frozen, `with_...` makes variants that share what stays the same."""
 
@@ -129,21 +129,28 @@ class Problem:
     def create(
         mesh: Mesh,
         kind: Kind,
-        distortion: Distortion,
+        distortion: Distortion | str = "symmetric-dirichlet",
         anchors: Anchors | None = None,
         *,
         constraints: LinearConstraints | None = None,
         allow_inversions: bool = False,
         criteria: Criteria | None = None,
     ) -> Problem:
-        """A problem on a source that suits `kind` (see `workbench.core.fixes.check_for_kind`).
+        """A problem on a source that suits `kind` (see `workbench.core.fixes.check_for_kind`); a text names a distortion.
 
         Raises `MeshError` for degenerate simplices, `WorkbenchError` for anchors that do not fit,
         `FormulaError` where the distortion does not exist in this dimension.
         """
+        if isinstance(distortion, str):
+            distortion = Distortion.resolve(distortion)
         distortion.compiled(mesh.dimension)
         energy = Energy(build_elements(mesh), distortion, allow_inversions, mesh=mesh)
         return Problem(mesh, kind, energy, anchors or Anchors.none(mesh.dimension), constraints, criteria or Criteria())
+
+    def __repr__(self) -> str:
+        mesh, anchors = self.mesh, len(self.anchors.vertices)
+        size = f"{mesh.vertex_count:,} vertices, {mesh.simplex_count:,} {mesh.simplex_noun(mesh.simplex_count)}"
+        return f"<Problem {self.kind}, {self.distortion.id}, {size}, {anchors} anchor{'' if anchors == 1 else 's'}>"
 
     # ---------------------------------------------------------------------------------------- variants
 
