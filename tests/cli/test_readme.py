@@ -64,6 +64,24 @@ def test_the_example_of_a_solver_keeps_every_law(readme, tmp_path):
     assert not broken
 
 
+def test_the_ten_lines_of_a_notebook_run(readme, tmp_path, monkeypatch, capsys):
+    lines = code_lines(readme)
+    first = lines.index("from workbench.api import figure, load, measure, solve")
+    last = next(i for i in range(first, len(lines)) if lines[i].startswith("result.save("))
+    assert sum(bool(line) for line in lines[first : last + 1]) <= 10
+    script = tmp_path / "notebook.py"
+    script.write_text("\n".join(lines[first : last + 1]) + "\n")
+    monkeypatch.chdir(tmp_path)
+    found = runpy.run_path(str(script))
+    assert found["result"].status is Status.CONVERGED
+    assert capsys.readouterr().out.splitlines()[-1] == "0"
+    positions = found["result"].positions
+    for vertex, target in found["hold"].items():
+        assert abs(positions[vertex] - target).max() < 1e-9
+    assert read_mesh(tmp_path / "man.obj").mesh.vertex_count == len(positions)
+    assert (tmp_path / "man.pdf").read_bytes().startswith(b"%PDF")
+
+
 def test_the_example_of_a_notebook_runs(readme, tmp_path, monkeypatch, capsys):
     lines = code_lines(readme)
     first = lines.index("import numpy as np")

@@ -100,9 +100,10 @@ def test_a_map_may_be_positions() -> None:
         measure(load("sample:bar"))
 
 
-def test_maps_become_figures_with_one_scale(solved, tmp_path: Path) -> None:
+def test_maps_become_figures_with_one_scale(dome: Mesh, tmp_path: Path) -> None:
+    solved = solve(dome, progress=False)
     before = (solved.source, solved.start)
-    drawing = figure({"before": before, "after": solved}, colour=["arap", "det"], width=120, title="Two maps")
+    drawing = figure({"before": before, "after": solved}, colour=["arap", "det"], width=120, dpi=60, title="Two maps")
     assert len(drawing.recipe.panels) == 6
     bars = [panel for panel in drawing.recipe.panels if panel.bar]
     assert [panel.colour for panel in bars] == ["arap", "det"]
