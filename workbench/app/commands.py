@@ -85,6 +85,7 @@ class Commands(QObject):
             "judge": self.judging.ask,
             "next-place": lambda: self.judging.walk(1),
             "last-place": lambda: self.judging.walk(-1),
+            "preferences": lambda: window.preferring.ask(),
             "palette": self.commanding.ask,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
             "report": self.show_report,
@@ -95,6 +96,7 @@ class Commands(QObject):
 
     def wait(self) -> None:
         """Let threads end before the window does."""
+        self._window.preferring.end()
         self.saver.wait()
         if self.signatures is not None:
             self.signatures.wait()
@@ -272,8 +274,7 @@ class Commands(QObject):
             self._window.theme_switch.changed.disconnect(dissection.set_theme)
 
     def choose_theme(self, choice: str) -> None:
-        self._window.settings.theme = choice
-        self._window.theme_switch.choose(choice)
+        self._window.preferring.choose("theme", choice)
 
     # ------------------------------------------------------------------------------------------ help
 

@@ -20,6 +20,7 @@ def run_window(
     *,
     theme: str = "",
     settings_file: str | Path | None = None,
+    reset: bool = False,
     **unused: Any,
 ) -> int:
     """Open the window and return its exit status when it is closed.
@@ -29,6 +30,7 @@ def run_window(
     source : str             file to open, or `sample:ID`; the first sample where there is none
     theme : str              system, light or dark; the user's last choice where it is empty
     settings_file : path     settings of its own instead of the user's
+    reset : bool             forget layout, views and preferences first
     """
     from workbench.engine.head_start import begin_engine
 
@@ -38,10 +40,20 @@ def run_window(
     from workbench.app.engine_bridge import engine_worker
     from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
+    from workbench.app.preferences.environment import set_environment
+    from workbench.app.preferences.preferences import Preferences
     from workbench.app.settings import Settings
     from workbench.app.theme import ThemeSwitch
 
     settings = Settings(settings_file)
+    if reset:
+        settings.reset()
+    preferences = Preferences(settings)
+    if set_environment(preferences.values):  # the engine that has begun knows nothing of it
+        begun.discard()
+        begun = begin_engine(gives_way=True)
+    if not source and preferences["start_with"] == "last":
+        source = next(iter(settings.recent_files), None)
     switch = ThemeSwitch(application, theme if theme in ("light", "dark") else settings.theme)
     window = MainWindow(switch, settings, lambda wake: engine_worker(wake, begun))
     window.show()

@@ -30,6 +30,7 @@ from workbench.app.menus import fill_menus, fill_tool_bar
 from workbench.app.method_finder import MethodFinder, find_methods
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
+from workbench.app.preferences.preferring import Preferring
 from workbench.app.presenter import Presenter
 from workbench.app.progress_bar import ProgressLine
 from workbench.app.quantities import LIVE_QUANTITIES
@@ -120,6 +121,7 @@ class MainWindow(QMainWindow):
         self.reporter = Reporter(self)
         self._connect()
         self._apply_theme(self.theme)
+        self.preferring = Preferring(self)
         self.view_memory = ViewMemory(self)
         self._restore_layout()
         self._finder = MethodFinder(self)
@@ -194,9 +196,9 @@ class MainWindow(QMainWindow):
     def _make_tools(self) -> None:
         document = self.document
         self.desk = AnchorDesk(document)
+        self.handling = Handling(self)
 
         def may_anchor() -> bool:
-        self.handling = Handling(self)
             return document.positions is not None
 
         self.source_tool = AnchorTool(self.source.view, is_target=False, may_anchor=may_anchor)

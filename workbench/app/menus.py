@@ -54,6 +54,8 @@ def fill_menus(window: MainWindow) -> None:
     edit.addSeparator()
     for name in ("equations", "refine"):
         edit.addAction(actions[name])
+    edit.addSeparator()
+    edit.addAction(actions["preferences"])
     solver = bar.addMenu("&Solver")
     for name in ("run", "step", "reset", "stop"):
         solver.addAction(actions[name])
@@ -122,6 +124,7 @@ def _add_themes(window: MainWindow, menu: QMenu) -> None:
         action.setChecked(window.theme_switch.choice == choice)
         group.addAction(action)
         action.triggered.connect(lambda _=False, c=choice: window.commands.choose_theme(c))
+        window.theme_switch.changed.connect(lambda _, a=action, c=choice: a.setChecked(c == window.theme_switch.choice))
 
 
 def fill_recent(window: MainWindow, menu: QMenu) -> None:

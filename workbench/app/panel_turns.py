@@ -44,6 +44,7 @@ class PanelTurns(QObject):
         super().__init__()
         self.panels: list[Panel] = []
         self.is_drawing = True
+        self.rest_factor = REST_FACTOR
         self._next = 0
         self._not_before = 0.0
         self._is_due = False
@@ -105,7 +106,7 @@ class PanelTurns(QObject):
             panel = self.panels[(self._next + offset) % count]
             if panel.is_stale and panel.widget.isVisible():
                 self._next = (self._next + offset + 1) % count
-                self._not_before = time.perf_counter() + max(LEAST_REST, REST_FACTOR * panel.cost())
+                self._not_before = time.perf_counter() + max(LEAST_REST, self.rest_factor * panel.cost())
                 panel.is_stale = False
                 panel.draw()
                 if isinstance(panel.widget, MeshView):

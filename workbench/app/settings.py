@@ -11,12 +11,16 @@ from PySide6.QtCore import QByteArray, QSettings
 RECENT_COUNT = 10
 RECENT_FORMULAS = 20
 RECENT_COMMANDS = 30
+KEPT = ("recent", "sessions", "formulas", "folder")
+"""What a reset leaves."""
 
 
 class Settings:
     """Recent files, theme, layout and what views show. `path` names a file of its own, so that tests leave the user's alone."""
 
     def __init__(self, path: str | Path | None = None) -> None:
+        self.recent_count = RECENT_COUNT
+        """Files and sessions that are listed."""
         if path is None:
             self._store = QSettings(
                 QSettings.Format.IniFormat, QSettings.Scope.UserScope, "distortion-workbench", "window"
@@ -44,12 +48,12 @@ class Settings:
         self._remember("sessions", path)
 
     def _files(self, key: str) -> list[str]:
-        return [path for path in self._texts(key) if _is_file(path)]
+        return [path for path in self._texts(key) if _is_file(path)][: self.recent_count]
 
     def _remember(self, key: str, path: str) -> None:
         full = str(Path(path).resolve())
         others = [p for p in self._files(key) if p != full]
-        self._store.setValue(key, [full, *others][:RECENT_COUNT])
+        self._store.setValue(key, [full, *others][: self.recent_count])
 
     @property
     def recent_formulas(self) -> list[str]:
@@ -119,11 +123,27 @@ class Settings:
 
     def views(self) -> dict[str, Any]:
         """What views showed; empty where nothing was kept, or nothing that can be read."""
+        return self._table("views")
+
+    def save_preferences(self, values: dict[str, Any]) -> None:
+        self._store.setValue("preferences", json.dumps(values))
+
+    def preferences(self) -> dict[str, Any]:
+        """What was chosen there, as it stands in the file; empty where nothing was."""
+        return self._table("preferences")
+
+    def _table(self, key: str) -> dict[str, Any]:
         try:
-            found = json.loads(str(self._store.value("views", "{}")))
-        except ValueError:
+            found = json.loads(str(self._store.value(key, "{}")))
+        except (ValueError, RecursionError):
             return {}
         return found if isinstance(found, dict) else {}
+
+    def reset(self) -> None:
+        """Forget what was chosen; what is open to be opened again, files, sessions and formulas, stays."""
+        for key in self._store.allKeys():
+            if key not in KEPT:
+                self._store.remove(key)
 
     def sync(self) -> None:
         self._store.sync()

@@ -13,6 +13,8 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
     parser.add_argument("source", nargs="?", metavar="FILE", help="mesh file, or sample:ID; without it a sample")
     themes, when = ("system", "light", "dark"), "default: your last choice, at first the system's"
     parser.add_argument("--theme", choices=themes, default="", help=f"colours ({when})")
+    reset = "begin with the defaults: layout, views and preferences are forgotten, recent files and formulas are not"
+    parser.add_argument("--reset", action="store_true", help=reset)
     parser.set_defaults(run=run)
 
 
@@ -28,4 +30,4 @@ def run(options: argparse.Namespace) -> int:
         raise WorkbenchError(
             f"The window cannot be loaded ({error}); `workbench doctor` says what is missing and how to install it."
         ) from error
-    return int(run_window(source, theme=options.theme))
+    return int(run_window(source, theme=options.theme, reset=options.reset))

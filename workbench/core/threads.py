@@ -12,7 +12,16 @@ from typing import TypeVar
 T = TypeVar("T")
 Piece = TypeVar("Piece")
 
-_count = min(os.cpu_count() or 1, 8)
+COUNT = "WORKBENCH_THREADS"
+"""Environment variable: how many threads there are in the beginning, at least one; anything else leaves it to the program."""
+
+
+def _first_count() -> int:
+    wanted = os.environ.get(COUNT, "")
+    return int(wanted) if wanted.isdecimal() and 0 < int(wanted) <= 1024 else min(os.cpu_count() or 1, 8)
+
+
+_count = _first_count()
 _pool: ThreadPoolExecutor | None = None
 
 

@@ -26,6 +26,13 @@ class BegunEngine:
     at: float
     """`time.monotonic` when it was begun."""
 
+    def discard(self) -> None:
+        """End it: another one is wanted in its place."""
+        self.process.kill()
+        self.process.join(timeout=5.0)
+        for end in (self.connection, self.corrector):
+            end.close()
+
 
 def begin_child_process(name: str, gives_way: bool, body: Callable[..., None] | str, *arguments: Any) -> tuple[Any, Connection]:
     """A spawned process that runs `body(connection, *arguments)` (see `run_child`), and our end of the connection."""

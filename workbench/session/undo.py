@@ -41,6 +41,10 @@ class UndoHistory(Generic[Choices]):
         self._done = 0
         self._lock = threading.RLock()
 
+    def set_limit(self, limit: int) -> None:
+        """Another limit in bytes; `trim` keeps to it."""
+        self._limit = limit
+
     # ------------------------------------------------------------------------------------------ what there is
 
     @property

@@ -57,6 +57,7 @@ class Autosave(QObject):
         self.path = self._folder / f"{int(time.time())}-{secrets.token_hex(4)}{ENDING}"
         self._kept: tuple[object, ...] = ()
         self._offered: list[Left] = []
+        self._is_wanted = True
         self._timer = QTimer(self)
         self._timer.setInterval(INTERVAL)
         self._timer.timeout.connect(self.keep)
@@ -68,6 +69,16 @@ class Autosave(QObject):
             self._folder.mkdir(parents=True, exist_ok=True)
             self.offer()
             self._lock = _locked(self.path)
+            if self._is_wanted:
+                self._timer.start()
+
+    def set_interval(self, seconds: int) -> None:
+        """Look every so many seconds whether there is something to keep; 0: never."""
+        self._is_wanted = seconds > 0
+        self._timer.setInterval(1000 * seconds if seconds else INTERVAL)
+        if not self._is_wanted:
+            self._timer.stop()
+        elif self._lock is not None:
             self._timer.start()
 
     def keep(self) -> None:

@@ -176,6 +176,11 @@ class Undoing(QObject):
             return False
         return bool(np.all(determinants(build_elements(mesh), positions) > 0))
 
+    def set_memory(self, limit: int) -> None:
+        """Keep maps of so many bytes at the most."""
+        self.history.set_limit(limit)
+        self._pack()
+
     def wait(self) -> None:
         if self._packing is not None:
             self._packing.wait()

@@ -7,12 +7,12 @@ from PySide6.QtCore import QLineF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, Theme
+from workbench.app.views import drawing_style
 from workbench.app.views.stamps import stamp_discs
 from workbench.core.arrays import Booleans, Floats
 
-RADIUS = 6.5
-"""Radius of an anchor's disc in pixels."""
-SMALL_RADIUS = 3.5
+SMALL = 0.54
+"""Size of a disc among many, beside that of one."""
 MANY = 40
 """Number of anchors from which on their discs are small."""
 BEHIND = 0.35
@@ -35,7 +35,7 @@ def paint_anchors(
 ) -> None:
     """Anchors at pixels `discs` (k, 2), whose vertices are at pixels `vertices` (k, 2) now."""
     is_small = len(discs) > MANY
-    radius = SMALL_RADIUS if is_small else RADIUS
+    radius = drawing_style.anchor_radius * (SMALL if is_small else 1.0)
     _paint_lines(painter, discs, vertices, is_soft, is_off, theme)
     outline = QPen(ANCHOR_RIM, 1.0 if is_small else 1.8)
     casing = 3.2 if is_small else 4.8

@@ -9,19 +9,27 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
 from workbench.app.theme import INVERTED, Colour
+from workbench.app.views import drawing_style
 from workbench.app.views.colour_tables import colour_table
 
 TRIMMED = 34
 """Entries left out at the pale end, which would be lost on a white background."""
 
 
-@lru_cache(maxsize=1)
 def distortion_colours() -> NDArray[np.float64]:
-    """Colours (k, 3) in [0, 1] from no distortion to much: pale blue over violet to red.
+    """Colours (k, 3) in [0, 1] from no distortion to much, pale to strong: as a rule pale blue over violet to red.
 
-    Perceptually uniform (Kovesi 2015, CET-L19). It has no yellow, which stands for inverted simplices.
+    Perceptually uniform (Kovesi 2015, CET-L19). They have no yellow, which stands for inverted simplices.
     """
-    return colour_table("CET_L19")[TRIMMED:]
+    return _from_pale(drawing_style.colour_map)
+
+
+@lru_cache(maxsize=4)
+def _from_pale(name: str) -> NDArray[np.float64]:
+    table = colour_table(name)
+    if table[0].sum() < table[-1].sum():
+        table = table[::-1]
+    return table[TRIMMED:]
 
 
 @lru_cache(maxsize=1)

@@ -11,6 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.colour_range import ColourRange
 from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.views import drawing_style
 from workbench.app.views.actors import THROUGH, actor_of, cells, line_actor, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.canvas import draws_with_card
@@ -21,8 +22,6 @@ from workbench.app.views.ghost import Ghost
 from workbench.app.views.textures import Texture, repeating
 from workbench.core.arrays import Booleans, Integers
 
-EDGES_UP_TO = 12_000
-"""Triangles up to which their edges are drawn unasked."""
 MAP_SCALARS = 1
 """VTK_COLOR_MODE_MAP_SCALARS, which Python does not name."""
 
@@ -60,7 +59,7 @@ class Surface:
         self._brush = BrushMark(geometry)
         self.ghost = Ghost(geometry, theme)
         self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors, self.ghost.actor)
-        self._style(edges if edges is not None else len(geometry.triangles) <= EDGES_UP_TO)
+        self._style(edges if edges is not None else len(geometry.triangles) <= drawing_style.edges_up_to)
         self.show_plain()
 
     def _make_scalars(self) -> None:
@@ -86,7 +85,7 @@ class Surface:
         style.SetAmbient(0.35)
         style.SetDiffuse(0.65)
         style.SetEdgeColor(*self._theme.edges)
-        style.SetLineWidth(1.0)
+        style.SetLineWidth(drawing_style.edge_width)
         self.set_edges(edges)
 
     def set_edges(self, visible: bool) -> None:
@@ -106,6 +105,7 @@ class Surface:
         self._theme = theme
         self.ghost.set_theme(theme)
         self._actor.GetProperty().SetEdgeColor(*theme.edges)
+        self._actor.GetProperty().SetLineWidth(drawing_style.edge_width)
         if self._texture is not None:
             self.show_pattern(self._texture)
         elif self._is_plain:
