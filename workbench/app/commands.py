@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
+from workbench.app.binding.binding import Binding
 from workbench.app.composing.composing import Composing
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT, SHORTCUTS
@@ -51,6 +52,7 @@ class Commands(QObject):
         self.racing = Racing(window)
         self.composing = Composing(window)
         self.judging = Judging(window)
+        self.binding = Binding(window)
         self.commanding = Commanding(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
@@ -64,6 +66,7 @@ class Commands(QObject):
             "undo": window.undoing.undo,
             "redo": window.undoing.redo,
             "fill": self.filling.ask,
+            "equations": self.binding.ask,
             "refine": self.refining.ask,
             "figure": self.composing.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),

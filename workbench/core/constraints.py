@@ -164,11 +164,11 @@ class LinearConstraints:
 
         inverse_metric : (n, d) float64      of the diagonal metric in which that part is the nearest; None: the Euclidean one
         """
-        d = direction.shape[1]
-        rows = self.matrix.toarray()
-        rows[:, (held[:, None] * d + np.arange(d)).reshape(-1)] = 0.0
+        free = np.ones(direction.shape)
+        free[held] = 0.0
         flat = direction.reshape(-1)
-        corrections = rows if inverse_metric is None else rows * inverse_metric.reshape(-1)
-        multipliers = np.linalg.lstsq(rows @ corrections.T, rows @ flat, rcond=None)[0]
+        rows = self.matrix @ sparse.diags(free.reshape(-1))
+        corrections = rows if inverse_metric is None else rows @ sparse.diags(inverse_metric.reshape(-1))
+        multipliers = np.linalg.lstsq((rows @ corrections.T).toarray(), rows @ flat, rcond=None)[0]
         result: Floats = (flat - corrections.T @ multipliers).reshape(direction.shape)
         return result

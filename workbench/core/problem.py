@@ -322,8 +322,12 @@ class Problem:
         return self.anchor_error(positions) > self.anchor_tolerance
 
     def free_gradient_norm(self, gradient: Floats) -> float:
-        """Euclidean norm over the vertices that no hard anchor holds."""
+        """Euclidean norm over the vertices that no hard anchor holds, along A x = const."""
         fixed = self.anchors.hard_vertices
+        if self.constraints is not None:
+            free = gradient.copy()
+            free[fixed] = 0.0
+            return float(np.linalg.norm(self.constraints.tangential(free, fixed)))
         square = float(np.einsum("ij,ij->", gradient, gradient))
         held = gradient[fixed]
         return float(np.sqrt(max(0.0, square - float(np.einsum("ij,ij->", held, held)))))

@@ -1,0 +1,1 @@
+"""Linear equations between coordinates of the map, as the window shows them."""
