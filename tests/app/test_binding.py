@@ -49,7 +49,7 @@ def test_equations_bind_the_map_until_they_are_undone(make_window: WindowMaker, 
     qtbot.waitUntil(lambda: document.snapshot.anchor_serial == serial and document.snapshot.phase == "finished", timeout=LONG)
     assert bound(window) <= 1e-9
     path = tmp_path / "bound.dwb"
-    window.sessions.save_to(str(path))
+    window.sessions.desk.save(str(path), is_copy=True)
     qtbot.waitUntil(lambda: path.exists() and not window.sessions.desk.is_busy)
     assert main(["run", str(path), "--out", str(tmp_path / "again")]) == 0
     with np.load(next((tmp_path / "again").glob("*.npz"))) as again:
