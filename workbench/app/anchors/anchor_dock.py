@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QAction, QGuiApplication, QShowEvent
-from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDockWidget, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_edits import edited, pasted
@@ -33,7 +33,6 @@ class AnchorDock(QDockWidget):
     def __init__(self, document: Document, errors: ErrorBar, actions: tuple[QAction, ...], parent: QWidget) -> None:
         super().__init__("Anchors", parent)
         self.setObjectName("anchors")
-        self.setTitleBarWidget(DockTitle(self, QLabel("Anchors", self)))
         self._document = document
         self._errors = errors
         self._fresh = -1
@@ -68,22 +67,12 @@ class AnchorDock(QDockWidget):
         layout = QVBoxLayout(body)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
-        bar = QHBoxLayout()
-        bar.setContentsMargins(6, 3, 6, 3)
-        self.add_button = _button("Add", "Anchor another vertex; its number is typed into the new row", self.add, body)
-        self.delete_button = _button("Delete", "Let the anchors of the selected rows go (Del)", self.delete, body)
-        for button in (self.add_button, self.delete_button):
-            bar.addWidget(button)
-        bar.addSpacing(8)
-        for action in actions:
-            button = QToolButton(body)
-            button.setAutoRaise(True)
-            button.setDefaultAction(action)
-            bar.addWidget(button)
-        bar.addStretch(1)
-        layout.addLayout(bar)
+        self.add_button = _button("Add", "Anchor another vertex; its number is typed into the new row", self.add, self)
+        self.delete_button = _button("Delete", "Let the anchors of the selected rows go (Del)", self.delete, self)
+        files = [_button(word, a.toolTip(), a.trigger, self) for word, a in zip(("Import", "Export"), actions, strict=True)]
+        self.setTitleBarWidget(DockTitle(self, QLabel("Anchors", self), self.add_button, self.delete_button, *files))
         layout.addWidget(self.table, 1)
-        self.summary.setContentsMargins(8, 3, 8, 3)
+        self.summary.setContentsMargins(8, 1, 8, 2)
         self.summary.setWordWrap(True)
         layout.addWidget(self.summary)
         self.setWidget(body)

@@ -18,8 +18,8 @@ from PySide6.QtWidgets import (
 from workbench.app.anchors.anchor_table_model import AnchorTableModel, Index
 from workbench.core.arrays import Integers
 
-ROW_HEIGHT = 22
-MARGIN = 14
+ROW_HEIGHT = 20
+MARGIN = 10
 """Pixels of a column beside its text."""
 ARROW = 14
 """Pixels for the mark of the column that was sorted by."""
@@ -55,6 +55,7 @@ class AnchorTable(QTableView):
         rows.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
         rows.setDefaultSectionSize(ROW_HEIGHT)
         rows.hide()
+        heads.setMinimumSectionSize(24)
         heads.setHighlightSections(False)
         heads.setDefaultAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         heads.setSortIndicator(-1, Qt.SortOrder.AscendingOrder)
@@ -74,7 +75,7 @@ class AnchorTable(QTableView):
     @property
     def chosen_rows(self) -> Integers:
         """(k,) rows that are selected, ascending."""
-        ranges = self.selectionModel().selection()
+        ranges = self.selectionModel().selection().toList()
         rows = [np.arange(r.top(), r.bottom() + 1) for r in ranges if r.isValid()]
         return np.unique(np.concatenate(rows)) if rows else np.empty(0, np.int64)
 

@@ -77,8 +77,8 @@ class AnchorTableModel(QAbstractTableModel):
         table = self._table
         if len(table.vertices) and positions.shape[1] == table.targets.shape[1]:
             self._residuals = np.linalg.norm(positions[table.vertices] - table.targets, axis=1)
-            last = len(self.columns) - 1
-            self._tell_changed(last, last)
+            place = self.place_of("residual")
+            self._tell_changed(place, place)
 
     def _tell_changed(self, first: int, last: int) -> None:
         if len(self._order):
@@ -137,8 +137,8 @@ class AnchorTableModel(QAbstractTableModel):
         if not key:
             self._order = np.arange(len(self._anchors))
             return
-        values = np.nan_to_num(self._values(key), nan=math.inf, posinf=math.inf)
-        self._order = np.argsort(-values if is_descending else values, kind="stable")
+        values = self._values(key)
+        self._order = np.argsort(-values if is_descending else values, kind="stable")  # NaN stands last
 
     def _values(self, key: str) -> Floats:
         """(k,) what a column is sorted by."""
@@ -177,10 +177,12 @@ class AnchorTableModel(QAbstractTableModel):
         key, item = self.columns[index.column()].key, int(self._order[index.row()])
         if role == Role.TextAlignmentRole:
             return RIGHT
+        if role == Role.ToolTipRole:
+            return self._words(key, item, "{!r}") or self.columns[index.column()].tip
         if role == Role.CheckStateRole and key == "on":
             return Qt.CheckState.Unchecked if self._table.is_off[item] else Qt.CheckState.Checked
         if role == Role.DisplayRole:
-            return self._words(key, item, "{:.6g}")
+            return self._words(key, item, "{:.5g}")
         if role == Role.EditRole:
             return self._words(key, item, "{!r}")
         return None
@@ -200,7 +202,7 @@ class AnchorTableModel(QAbstractTableModel):
         value = float(self._values_at(key, item))
         if key == "weight" and math.isinf(value):
             return "hard"
-        return form.format(value) if math.isfinite(value) else ""
+        return (form if key != "residual" else "{:.3g}").format(value) if math.isfinite(value) else ""
 
     def _values_at(self, key: str, item: int) -> float:
         table = self._table
