@@ -36,6 +36,8 @@ TEXTS: dict[str, ActionText] = {
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
     "quit": ActionText("&Quit", ("Ctrl+Q",)),
     "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),
+    "pin-loop": ActionText("Pin a l&oop", (), "Anchor the loop of the boundary that you click, where it is now"),
+    "pin-path": ActionText("Pin a pa&th", ("P",), "Anchor the shortest path along edges between two clicks (P)"),
     "box": ActionText("Anchor a &box", ("B",), "Anchor the vertices in a box that you drag, as one group (B)"),
     "lasso": ActionText("Anchor a &lasso", ("L",), "Anchor the vertices in a lasso that you draw, as one group (L)"),
     "select-all": ActionText("Select &all anchors", ("Ctrl+A",), "Select every anchor"),

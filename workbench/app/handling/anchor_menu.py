@@ -17,6 +17,9 @@ from workbench.app.views.mesh_view import MeshView
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
+OFFERED = ("box", "lasso", "", "pin", "pin-loop", "pin-path", "", "select-box", "select-lasso", "select-all", "", "clear")
+"""Actions where no anchor is under the pointer"""
+
 
 class AnchorMenu(QObject):
     """Opens at the pointer of any tool of a window, and asks its desk and document."""
@@ -75,7 +78,7 @@ class AnchorMenu(QObject):
             noun = "side" if self._patches_now().is_figure else "face"
             action = menu.addAction(f"Anchor this {noun}\tAlt+click")
             action.triggered.connect(lambda: self.anchor_patch(view, pixel))
-            for name in ("box", "lasso", "", "pin", "", "select-box", "select-lasso", "select-all", "", "clear"):
+            for name in OFFERED:
                 menu.addAction(actions[name]) if name else menu.addSeparator()
         menu.aboutToHide.connect(menu.deleteLater)
         self.menu = menu

@@ -12,12 +12,19 @@ from PySide6.QtWidgets import QMenu
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.handling.anchor_menu import AnchorMenu
 from workbench.app.handling.area_drawing import AreaMode
+from workbench.app.handling.pinning import Pinning
 from workbench.core.arrays import Integers
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
 NOTHING_SELECTED = "No anchor is selected: click one, with Shift more of them, or draw a lasso round them (Shift+L)."
+
+MENUS = (
+    ("&Select anchors", ("select-all", "select-box", "select-lasso", "through", "", "group", "ungroup")),
+    ("&Pin", ("pin", "pin-loop", "pin-path", "box", "lasso")),
+    ("&Move anchors", ("move", "turn", "scale")),
+)
 
 
 class Handling(QObject):
@@ -29,6 +36,7 @@ class Handling(QObject):
         self._document, self._desk = window.document, window.desk
         self._tools: list[AnchorTool] = []
         self.menu = AnchorMenu(window)
+        self.pinning = Pinning(window, self._tools)
         self._mode = AreaMode()
         self._through = window.actions_by_name["through"]
         deeds = {
@@ -40,6 +48,8 @@ class Handling(QObject):
             "through": self._set_through,
             "group": self.group,
             "ungroup": self._desk.split_selected,
+            "pin-loop": lambda: self.pinning.begin("loop"),
+            "pin-path": lambda: self.pinning.begin("path"),
             "move": lambda: self.hold("move"),
             "turn": lambda: self.hold("turn"),
             "scale": lambda: self.hold("scale"),
@@ -52,6 +62,7 @@ class Handling(QObject):
         self._tools.append(tool)
         tool.destroyed.connect(lambda: self._tools.remove(tool))
         self.menu.connect_tool(tool)
+        self.pinning.connect_tool(tool)
         tool.area.mode = self._mode
         tool.area.chosen.connect(self._take_area)
         tool.area.nothing_chosen.connect(self._say_nothing)
@@ -65,6 +76,7 @@ class Handling(QObject):
         """The next drag in any view draws a "box" or a "lasso", to "anchor" vertices or to "select" anchors."""
         if self._document.positions is None:
             return
+        self.pinning.end()
         self._mode.shape, self._mode.deed = shape, deed
         for tool in self._tools:
             tool.area.arm()
@@ -141,13 +153,9 @@ class Handling(QObject):
             self._window.status.say(NOTHING_SELECTED)
 
     def fill_menu(self, menu: QMenu) -> None:
-        """What is offered for choosing, pinning and moving."""
+        """What is offered for choosing, pinning and moving, in menus within a menu."""
         actions = self._window.actions_by_name
-        for title, names in (
-            ("&Select anchors", ("select-all", "select-box", "select-lasso", "through", "", "group", "ungroup")),
-            ("&Pin", ("pin", "box", "lasso")),
-            ("&Move", ("move", "turn", "scale")),
-        ):
+        for title, names in MENUS:
             part = menu.addMenu(title)
             for name in names:
                 part.addAction(actions[name]) if name else part.addSeparator()
@@ -156,4 +164,4 @@ class Handling(QObject):
 def _selected(count: int) -> str:
     if count == 0:
         return "No anchor is selected."
-    return "1 anchor is selected." if count == 1 else f"{count} anchors are selected: G moves, R turns, S scales them."
+    return "1 anchor is selected." if count == 1 else f"{count} anchors are selected: G moves, R turns, S scales."

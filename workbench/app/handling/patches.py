@@ -60,4 +60,3 @@ class Patches:
         away = segment_distances(ends, np.asarray(pixel))
         best = int(np.argmin(away)) if len(away) else -1
         return best if best >= 0 and away[best] <= REACH else -1
-
