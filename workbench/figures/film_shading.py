@@ -1,0 +1,108 @@
+"""Pixels of a film's pictures: triangles in flat colours or under a chequered texture, their edges, smooth outlines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.core.arrays import Floats, Integers
+from workbench.figures.mesh_pictures import FINER, TEXTURE
+from workbench.figures.raster import rasterise
+
+Pixels = NDArray[np.uint8]
+EDGE_REACH = 0.35
+"""Half the width of an edge, in pixels of the film."""
+
+
+@dataclass(frozen=True, eq=False)
+class Paint:
+    """How triangles look.
+
+    Parameters
+    ----------
+    colours : (k, 3) float64         in [0, 1], one a triangle
+    coordinates : (n, c) float64     of the vertices in a chequered texture; no rows: `colours` count
+    square : float                   side of a square of the texture
+    edge : (3,) float64              colour of edges
+    strength : float                 in [0, 1], of edges; 0: none are drawn
+    """
+
+    colours: Floats
+    coordinates: Floats
+    square: float = 1.0
+    edge: tuple[float, float, float] = (0.2, 0.2, 0.2)
+    strength: float = 0.0
+
+
+def draw_triangles(points: Floats, triangles: Integers, layers: Integers, paint: Paint, picture: Pixels) -> None:
+    """Draw triangles over what is in `picture` (h, w, 3), each pixel as much as it is covered.
+
+    Parameters
+    ----------
+    points : (n, 2|3) float64     in pixels of the picture, x to the right, y up from the lower edge; a third column is nearness
+    triangles : (k, 3) int64
+    layers : (k,) int64           triangles of a higher layer cover those of lower ones
+    """
+    height, width = picture.shape[:2]
+    finer = points * float(FINER)
+    raster = rasterise(finer, triangles, FINER * width, FINER * height, layers)
+    heights = _heights(finer[:, :2], triangles) if paint.strength > 0 else np.zeros((1, 3))
+    _shade(
+        raster.triangle, raster.weights, triangles, np.ascontiguousarray(paint.colours), np.array(TEXTURE),
+        np.ascontiguousarray(paint.coordinates, dtype=np.float64), paint.square, heights, np.array(paint.edge),
+        paint.strength, EDGE_REACH * FINER, FINER, picture,
+    )  # fmt: skip
+
+
+def _heights(points: Floats, triangles: Integers) -> Floats:
+    """(k, 3): the distance of each corner from the side opposite it."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    double = np.abs((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+    sides = np.stack([np.hypot(*(c - b).T), np.hypot(*(a - c).T), np.hypot(*(b - a).T)], axis=1)
+    found: Floats = double[:, None] / np.maximum(sides, 1e-12)
+    return found
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def _shade(  # type: ignore[no-untyped-def]
+    seen, weights, triangles, colours, texture, coordinates, square, heights, edge, strength, reach, finer, picture
+):
+    height, width = picture.shape[:2]
+    share = 1.0 / (finer * finer)
+    is_textured = coordinates.shape[0] > 0
+    mixed = np.empty(3)
+    for row in range(height):
+        for column in range(width):
+            covered = 0
+            mixed[:] = 0.0
+            for i in range(finer):
+                for j in range(finer):
+                    y, x = (height - 1 - row) * finer + i, column * finer + j
+                    t = seen[y, x]
+                    if t < 0:
+                        continue
+                    covered += 1
+                    a, b, c = weights[y, x, 0], weights[y, x, 1], weights[y, x, 2]
+                    tile = 0
+                    if is_textured:
+                        for k in range(coordinates.shape[1]):
+                            place = (
+                                a * coordinates[triangles[t, 0], k]
+                                + b * coordinates[triangles[t, 1], k]
+                                + c * coordinates[triangles[t, 2], k]
+                            )
+                            tile += int(np.floor(place / square + 0.37))
+                    dark = 0.0
+                    if strength > 0.0 and min(a * heights[t, 0], b * heights[t, 1], c * heights[t, 2]) < reach:
+                        dark = strength
+                    for k in range(3):
+                        # under a texture the colour of the triangle is how light falls on it
+                        base = colours[t, k] * texture[tile % 2, k] if is_textured else colours[t, k]
+                        mixed[k] += (1.0 - dark) * base + dark * edge[k]
+            if covered:
+                for k in range(3):
+                    value = share * (255.0 * mixed[k] + (finer * finer - covered) * picture[row, column, k])
+                    picture[row, column, k] = np.uint8(min(max(value + 0.5, 0.0), 255.0))
