@@ -92,7 +92,9 @@ def test_the_check_of_docstrings_can_fail():
 
 DISTRIBUTION_OF = {
     "PySide6": "pyside6-essentials",
+    "PIL": "pillow",
     "igl": "libigl",
+    "imageio_ffmpeg": "imageio-ffmpeg",
     "vtkmodules": "vtk",
 }  # where the module's name is not that of the distribution
 INSTALLED_WITH_ANOTHER = {"pyvista"}  # named for its version bounds: pyvistaqt is built on it
@@ -110,7 +112,7 @@ def test_dependencies_are_what_is_imported():
     foreign = {m for m in modules if m and m not in sys.stdlib_module_names and m != "workbench"}
     needed = {DISTRIBUTION_OF.get(module, module) for module in foreign}
     required = declared(project["dependencies"])
-    optional = declared([line for extra in ("mkl", "fill") for line in project["optional-dependencies"][extra]])
+    optional = declared([line for extra in ("mkl", "film", "fill") for line in project["optional-dependencies"][extra]])
     assert needed <= required | optional
     assert required <= needed | INSTALLED_WITH_ANOTHER
 
