@@ -79,7 +79,6 @@ class Commands(QObject):
             "reset": document.reset,
             "stop": document.stop,
             "fit": self.fit,
-            "edges": self.show_edges,
             "lock": self.hold_ranges,
             "unbrush": window.brush.clear,
             "signatures": self.show_signatures,
@@ -225,13 +224,6 @@ class Commands(QObject):
     def fit(self) -> None:
         self._window.source.view.fit()
         self._window.presenter.refit_target()
-
-    def show_edges(self) -> None:
-        visible = self._window.actions_by_name["edges"].isChecked()
-        for view in (self._window.source.view, self._window.target.view):
-            if view.surface is not None:
-                view.surface.set_edges(visible)
-                view.refresh()
 
     def hold_ranges(self) -> None:
         self._window.quantities.hold_all(self._window.actions_by_name["lock"].isChecked())

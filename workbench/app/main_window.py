@@ -20,6 +20,7 @@ from workbench.app.docks.convergence_dock import ConvergenceDock
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.histogram_dock import HistogramDock
 from workbench.app.document import Document
+from workbench.app.drawing.drawing_desk import DrawingDesk
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
 from workbench.app.handling.anchor_desk import AnchorDesk
@@ -114,6 +115,7 @@ class MainWindow(QMainWindow):
         self.time_line = TimeLine(self)
         self.splitting = Splitting(self)
         self.readings = Readings(self)
+        self.drawing = DrawingDesk(self)
         self.textures = TextureDesk(self)
         self.commands = Commands(self)
         fill_menus(self)
@@ -349,6 +351,7 @@ class MainWindow(QMainWindow):
             self.presenter.stop()
             self.look.stop()
             self.readings.stop()
+            self.drawing.wait()
             self.splitting.close()
             self.reporter.stop()
             self.source_tool.let_go()

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
 
+LINE_ACTIONS = ("edges", "wireframe", "seams", "boundary", "scale-bar")
 CARRIED_SAMPLE = "salamander"
 
 
@@ -69,7 +70,7 @@ def fill_menus(window: MainWindow) -> None:
         analyse.addAction(actions[name])
     view = bar.addMenu("&View")
     view.addAction(actions["palette"])
-    for name in ("fit", "edges", "lock", "unbrush", "", "cut", "uncut"):
+    for name in ("fit", "lock", "unbrush", "", *LINE_ACTIONS, "", "cut", "uncut"):
         view.addAction(actions[name]) if name else view.addSeparator()
     view.addSeparator()
     for name in ("split-right", "split-below", "close-view", "", "readings", "copy-readings"):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.core.arrays import Booleans, Floats
-from workbench.core.facets import FacetTable
+from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.facets import FacetTable, facet_table
 from workbench.core.mesh import Mesh, TextureCoordinates
 
 
@@ -31,3 +31,15 @@ def texture_at_vertices(mesh: Mesh) -> Floats | None:
     found[corners] = values
     is_map = bool((found[corners] == values).all() and np.isfinite(found).all())
     return found if is_map else None
+
+
+def seam_edges(texture: TextureCoordinates, triangles: Integers) -> Integers:
+    """Seams (k, 2) as vertices of their ends.
+
+    Parameters
+    ----------
+    texture : TextureCoordinates     of the triangles
+    triangles : (m, 3) int64
+    """
+    table = facet_table(triangles)
+    return table.sides[table.pairs[seam_pairs(texture, table), 0]]

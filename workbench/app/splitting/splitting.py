@@ -238,6 +238,8 @@ class Splitting(QObject):
         chain.setChecked(tools.chain.isChecked())
         chain.toggled.connect(tools.chain.setChecked)
         menu.addAction("&Fit").triggered.connect(self._leaves[name].view.fit)
+        menu.addSeparator()
+        self._window.drawing.fill_menu(self._leaves[name], menu)
 
     def fill_views(self, menu: QMenu) -> None:
         """Source and target, to be shown again."""

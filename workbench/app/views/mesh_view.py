@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QWidget
 from workbench.app.theme import Theme
 from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, axes_for_solid, axes_that_face
 from workbench.app.views.canvas import make_canvas
+from workbench.app.views.drawing_choices import DrawingChoices
 from workbench.app.views.flat_picture import FlatPicture, packed
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.overlay import Overlay
@@ -43,6 +44,8 @@ class MeshView(QWidget):
         self.surface: Surface | None = None
         self._is_closed = False
         self.is_drawing = True
+        self.drawing = DrawingChoices()
+        self._edges_unasked: bool | None = None
         self._wants_fit = True
         self._version = 0
         self._screen: tuple[int, Size, ScreenTriangles] | None = None
@@ -60,7 +63,9 @@ class MeshView(QWidget):
         """Draw another mesh; the camera fits it at the next chance."""
         self.clear()
         self.geometry_shown = geometry
+        self._edges_unasked = edges
         self.surface = Surface(geometry, self.theme, edges=edges)
+        self._draw_lines(self.surface)
         for actor in self.surface.actors:
             self._renderer.AddActor(actor)
         self.camera = _first_look(geometry)
@@ -75,6 +80,29 @@ class MeshView(QWidget):
         self.geometry_shown = None
         self._screen = None
         self.refresh()
+
+    def set_drawing(self, choices: DrawingChoices) -> None:
+        """Draw edges, wires and other lines as they are wanted, now and for meshes to come."""
+        self.drawing = choices
+        if self.surface is not None:
+            self._draw_lines(self.surface)
+        self.refresh()
+
+    def set_lines(self, seams: Integers, boundary: Integers) -> None:
+        """Edges (k, 2) of the mesh, drawn while they are wanted."""
+        if self.surface is not None:
+            self.surface.lines.set_seams(seams)
+            self.surface.lines.set_boundary(boundary)
+            self.refresh()
+
+    def _draw_lines(self, surface: Surface) -> None:
+        choices = self.drawing
+        if choices.edges is not None and self._edges_unasked is not False:
+            surface.set_edges(choices.edges)
+        elif choices.edges:
+            surface.set_edges(True)
+        surface.set_wireframe(choices.wireframe)
+        surface.lines.want(seams=choices.seams, boundary=choices.boundary)
 
     def add_actor(self, actor: Any) -> None:
         """Draw something beside the mesh, in the units of its display; it stays when another mesh comes."""
@@ -190,6 +218,12 @@ class MeshView(QWidget):
         if self._wants_fit:
             self.fit()  # a view that shows everything goes on doing so while it is resized
         self.points_changed()
+
+    @property
+    def pixels_per_unit(self) -> float:
+        """Pixels of a unit of the mesh across the line of sight."""
+        assert self.geometry_shown is not None
+        return self.camera.pixels_per_unit(self.size_in_pixels) * self.geometry_shown.frame.scale
 
     def project(self, points: Points) -> Floats:
         """(n, 3) of the display -> (n, 2) pixels, y downwards."""

@@ -27,6 +27,7 @@ from workbench.app.theme import LIGHT, LIMITING, Theme
 from workbench.app.views.anchor_paint import paint_anchors
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo
+from workbench.app.views.scale_bar import paint_scale_bar
 from workbench.app.views.sketch import Sketch, paint_outline, paint_sketch
 from workbench.core.arrays import Booleans, Integers
 
@@ -152,6 +153,8 @@ class Overlay(QWidget):
         self._paint_hovered(painter)
         if self.scene.outline is not None:
             paint_outline(painter, self.scene.outline, self.theme)
+        if self._view.drawing.scale_bar and self._view.geometry_shown is not None:
+            paint_scale_bar(painter, self._view.pixels_per_unit, QRectF(self.rect()), self.theme)
         self._label(painter, self.scene.hold_at + QPointF(16, -10), self.scene.hold_words)
         self._label(painter, QPointF(8, self.height() - 6), self.scene.hint)
         painter.end()

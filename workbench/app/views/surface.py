@@ -10,13 +10,14 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.colour_range import ColourRange
-from workbench.app.theme import CUT, INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.theme import INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views import drawing_style
-from workbench.app.views.actors import THROUGH, actor_of, cells, line_actor, mapper_of, surface_actor
+from workbench.app.views.actors import THROUGH, actor_of, cells, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import lookup_table, single_colour
 from workbench.app.views.drawn_faces import DrawnFaces
+from workbench.app.views.feature_lines import FeatureLines
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.ghost import Ghost
 from workbench.app.views.textures import Texture, repeating
@@ -53,12 +54,11 @@ class Surface:
         is_solid = geometry.simplices.shape[1] == 4
         self._inverted_actor = _inverted_actor(self._inverted, nearer=THROUGH if is_solid else 6.0)
         self._inverted_shown: tuple[DrawnFaces, Integers] = (geometry.faces, np.empty(0, np.int64))
-        self._cut = vtkPolyData()
-        self._cut.SetPoints(geometry.vtk_points)
-        self._cut_actor = line_actor(self._cut, CUT, 3.0, nearer=12.0)
+        self.lines = FeatureLines(geometry, theme)
         self._brush = BrushMark(geometry)
         self.ghost = Ghost(geometry, theme)
-        self.actors = (self._actor, self._inverted_actor, self._cut_actor, *self._brush.actors, self.ghost.actor)
+        self.actors = (self._actor, self._inverted_actor, *self.lines.actors, *self._brush.actors, self.ghost.actor)
+        self._is_wireframe = False
         self._style(edges if edges is not None else len(geometry.triangles) <= drawing_style.edges_up_to)
         self.show_plain()
 
@@ -91,6 +91,15 @@ class Surface:
     def set_edges(self, visible: bool) -> None:
         self._actor.GetProperty().SetEdgeVisibility(visible)
 
+    def set_wireframe(self, wanted: bool) -> None:
+        """Draw the sides of triangles in their colours, and nothing within."""
+        style = self._actor.GetProperty()
+        style.SetRepresentationToWireframe() if wanted else style.SetRepresentationToSurface()
+        style.SetLighting(not (wanted or self.geometry.is_flat))
+        self._is_wireframe = wanted
+        if self._is_plain:
+            self.show_plain()
+
     def set_opacity(self, opacity: float) -> None:
         """Draw the triangles as a veil before what is behind them; 1 hides it, 0 hides the triangles."""
         style = self._actor.GetProperty()
@@ -104,6 +113,7 @@ class Surface:
     def set_theme(self, theme: Theme) -> None:
         self._theme = theme
         self.ghost.set_theme(theme)
+        self.lines.set_theme(theme)
         self._actor.GetProperty().SetEdgeColor(*theme.edges)
         self._actor.GetProperty().SetLineWidth(drawing_style.edge_width)
         if self._texture is not None:
@@ -118,7 +128,7 @@ class Surface:
         self._drop_texture()
         self._actor.GetProperty().SetEdgeOpacity(1.0)
         self._is_plain = True
-        self._mapper.SetLookupTable(single_colour(self._theme.fill))
+        self._mapper.SetLookupTable(single_colour(self._theme.edges if self._is_wireframe else self._theme.fill))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
 
@@ -190,7 +200,7 @@ class Surface:
 
     def flat_colours(self) -> NDArray[np.uint32] | None:
         """Colour of each triangle (m,), packed; None where more is shown than flat triangles in a colour each."""
-        is_plain = self.geometry.is_flat and not self.has_edges and not self.has_texture
+        is_plain = self.geometry.is_flat and not self.has_edges and not self.has_texture and not self._is_wireframe
         if not is_plain or any(actor.GetVisibility() for actor in self.actors[1:]):
             return None
         colours = self._mapper.GetLookupTable().MapScalars(self._scalars, MAP_SCALARS, 0)
@@ -210,8 +220,7 @@ class Surface:
 
     def set_cut_edges(self, edges: Integers) -> None:
         """Edges (k, 2) that a cut opened: green."""
-        self._cut_actor.SetVisibility(len(edges) > 0)
-        self._cut.SetLines(cells(edges))
+        self.lines.set_cut(edges)
 
     def show_brushed(self, part: BrushedPart) -> None:
         """Triangles that are brushed: tinted and outlined, above all others."""

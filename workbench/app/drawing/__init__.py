@@ -1,0 +1,1 @@
+"""What views draw beside colours: edges, wires, seams, the boundary, a scale bar."""
