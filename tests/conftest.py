@@ -10,6 +10,7 @@ from pathlib import Path
 _home = tempfile.TemporaryDirectory(prefix="workbench-tests-", ignore_cleanup_errors=True)
 os.environ["XDG_DATA_HOME"] = str(Path(_home.name) / "data")
 os.environ["XDG_CONFIG_HOME"] = str(Path(_home.name) / "config")
+os.environ["XDG_STATE_HOME"] = str(Path(_home.name) / "state")
 os.environ.setdefault("QT_API", "pyside6")
 
 import numpy as np  # noqa: E402

@@ -14,6 +14,7 @@ from workbench.engine.messages import (
     Failure,
     LegBegun,
     Loaded,
+    LogLine,
     Progress,
     Ready,
     Refused,
@@ -124,6 +125,7 @@ class EngineBridge(ReportBridge):
     snapshot = Signal(object)
     dissected = Signal(object)
     leg_begun = Signal(object)
+    log_line = Signal(object)
 
     def __init__(self, make_worker: WorkerMaker = engine_worker) -> None:
         super().__init__(make_worker)
@@ -139,4 +141,5 @@ class EngineBridge(ReportBridge):
             Snapshot: self.snapshot,
             Dissected: self.dissected,
             LegBegun: self.leg_begun,
+            LogLine: self.log_line,
         }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
@@ -30,10 +31,12 @@ FIX_LABELS = {
 
 
 class ErrorBar(QFrame):
-    """One message at a time: sentence, buttons for fixes, details that fold out."""
+    """One message at a time: sentence, buttons for fixes, details that fold out; the same again is counted."""
 
     fix_wanted = Signal(object)
     """Names of the fixes to apply, in order."""
+    told = Signal(int, str, str)
+    """A message was shown: its level as in Python's logging, the sentence, the details."""
 
     def __init__(self, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -47,6 +50,11 @@ class ErrorBar(QFrame):
         self.sentence.setWordWrap(True)
         self.sentence.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         line.addWidget(self.sentence, 1)
+        self.count = QLabel(self)
+        self.count.setContentsMargins(0, 4, 0, 0)
+        self.count.setToolTip("So often has this been told")
+        line.addWidget(self.count, 0, Qt.AlignmentFlag.AlignTop)
+        self._times = 0
         self._buttons = QHBoxLayout()
         line.addLayout(self._buttons)
         self.details_button = QToolButton(self)
@@ -72,13 +80,23 @@ class ErrorBar(QFrame):
 
     def set_theme(self, theme: Theme) -> None:
         self.setStyleSheet(
-            f"#error-bar {{ background: {theme.warning}; border-bottom: 1px solid {theme.border}; }}"
+            f"#error-bar {{ background: {theme.warning}; border: 1px solid {theme.border}; border-radius: 6px; }}"
+            f"#error-bar[is-error=true] {{ border: 1px solid {'#ff8a80' if theme.is_dark else '#b3261e'}; }}"
             f"#error-bar QLabel {{ color: {theme.warning_text}; }}"
         )
 
-    def show_message(self, sentence: str, fixes: Sequence[str] = (), details: str = "") -> None:
+    def show_message(
+        self, sentence: str, fixes: Sequence[str] = (), details: str = "", level: int = logging.WARNING
+    ) -> None:
         """Put a message in the place of the one before."""
+        is_again = not self.isHidden() and sentence == self.sentence.text()
+        self._times = self._times + 1 if is_again else 1
+        self.count.setText(f"× {self._times}")
+        self.count.setVisible(self._times > 1)
         self.sentence.setText(sentence)
+        self.setProperty("is-error", level >= logging.ERROR)
+        self.style().polish(self)
+        self.told.emit(level, sentence, details)
         for button in self.fix_buttons:
             self._buttons.removeWidget(button)
             button.hide()
@@ -90,7 +108,7 @@ class ErrorBar(QFrame):
             self._add_button("Do all of these", tuple(fixes))
         self.details.setPlainText(details)
         self.details_button.setVisible(bool(details))
-        self.details_button.setChecked(False)
+        self.details_button.setChecked(self.details_button.isChecked() and is_again and bool(details))
         self.show()
 
     def _add_button(self, text: str, names: tuple[str, ...]) -> None:

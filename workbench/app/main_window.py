@@ -29,6 +29,8 @@ from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.menus import fill_menus, fill_tool_bar
 from workbench.app.method_finder import MethodFinder, find_methods
+from workbench.app.notices.floating_column import FloatingColumn
+from workbench.app.notices.noticing import Noticing
 from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
 from workbench.app.preferences.preferring import Preferring
@@ -93,8 +95,8 @@ class MainWindow(QMainWindow):
         self.quantities = QuantityBook(self)
         self.actions_by_name = make_actions(self, self.theme)
         self._make_centre()
-        self._make_docks()
         self._make_status()
+        self._make_docks()
         self.turns = PanelTurns()
         self.texturing = Texturing(self.source.view, self.target.view)
         panels = (*self.maps, self.histogram)
@@ -147,9 +149,10 @@ class MainWindow(QMainWindow):
         layout.setSpacing(0)
         self.error_bar = ErrorBar(self.theme, centre)
         self.progress = ProgressLine(centre)
-        layout.addWidget(self.error_bar)
-        layout.addWidget(self.progress)
         layout.addWidget(self.grid.root, 1)
+        self.bars = FloatingColumn(centre)
+        self.bars.add(self.error_bar)
+        self.bars.add(self.progress)
         self.setCentralWidget(centre)
 
     def _make_docks(self) -> None:
@@ -190,6 +193,8 @@ class MainWindow(QMainWindow):
         self.anchor_files.dock.hide()
         first: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
         self.docks: list[QDockWidget] = [*first, self.inspector, self.steps, self.anchor_files.dock]
+        self.noticing = Noticing(self)
+        self.docks.append(self.noticing.dock)
 
     def _make_status(self) -> None:
         self.status = StatusLine(self)
@@ -358,6 +363,7 @@ class MainWindow(QMainWindow):
             self.target_tool.let_go()
             self.desk.forget()
             self.bridge.close()
+            self.noticing.close()
             self._finder.wait()
             self.undoing.wait()
             self.inspector.wait()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QStatusBar, QWidget
 
@@ -42,6 +42,9 @@ class ElidedLabel(QLabel):
 class StatusLine(QStatusBar):
     """Sentence to the left, numbers to the right; all of fixed width, so that nothing jumps."""
 
+    said = Signal(str)
+    """A sentence that is not the one before."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.sentence = ElidedLabel(self)
@@ -56,7 +59,9 @@ class StatusLine(QStatusBar):
             self.fields[name] = label
 
     def say(self, sentence: str) -> None:
-        self.sentence.setText(sentence)
+        if sentence != self.sentence.text():
+            self.sentence.setText(sentence)
+            self.said.emit(sentence)
 
     def show_field(self, name: str, text: str) -> None:
         label = self.fields[name]

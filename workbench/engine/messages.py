@@ -284,6 +284,16 @@ class Failure(Report):
 
 
 @dataclass(frozen=True)
+class LogLine(Report):
+    """A record of a logger in the engine process: `level` as in Python's logging, `name` that of the logger."""
+
+    level: int
+    name: str
+    text: str
+    details: str = ""
+
+
+@dataclass(frozen=True)
 class Restarted(Report):
     """The engine process died or was stopped, and a new one goes on from the last good map."""
 

@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection, wait
 import numpy as np
 
 from workbench.engine.child import begin_child
+from workbench.engine.log_lines import LogLines
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Progress, Ready, Report
 from workbench.engine.priority import give_way
@@ -32,6 +33,7 @@ class _Publisher:
         self._connection = connection
         self._gives_way = gives_way
         self._is_first = True
+        self._lines = LogLines()
         self._ring: PositionRing | None = None
         self._held: MapReport | None = None
         self._last_sent = 0.0
@@ -50,7 +52,9 @@ class _Publisher:
             self.flush()
 
     def flush(self) -> None:
-        """Send the map that is held back, if there is one."""
+        """Send the map that is held back, if there is one, and what was logged."""
+        for line in self._lines.take():
+            self._connection.send(line)
         report, self._held = self._held, None
         if report is None:
             return
