@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from PySide6.QtWidgets import QApplication
+
 from workbench.app.theme import Theme
 
+SMALL = 0.92
+"""Size of citations and the like, beside that of other words."""
 # Qt draws the signs of these buttons in dark grey whatever the theme: they need a light ground
 DARK_DOCK_BUTTONS = """
     QWidget#dock-title > QToolButton#dock-button { background: #8a939e; border: 0; border-radius: 2px; padding: 0; }
@@ -12,13 +16,14 @@ DARK_DOCK_BUTTONS = """
 
 
 def style_sheet(theme: Theme) -> str:
+    small = SMALL * QApplication.font().pointSizeF()
     return f"""
     QDockWidget {{ color: {theme.text}; }}
     QDockWidget::title {{ background: {theme.window}; padding: 4px 8px; border-bottom: 1px solid {theme.border}; }}
     QWidget#dock-title {{ background: {theme.window}; border-bottom: 1px solid {theme.border}; }}
     QMainWindow::separator {{ background: {theme.border}; width: 4px; height: 4px; }}
     QSplitter::handle {{ background: {theme.border}; width: 3px; }}
-    QLabel#citation {{ color: {theme.faint}; font-size: 11px; }}
+    QLabel#citation {{ color: {theme.faint}; font-size: {small:.1f}pt; }}
     QLabel#form-error {{ color: {"#ff8a80" if theme.is_dark else "#b3261e"}; }}
     QGroupBox {{ border: 1px solid {theme.border}; border-radius: 5px; margin-top: 9px; padding-top: 6px; }}
     QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {theme.text}; font-weight: 600; }}

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QApplication, QToolBar
 from workbench.app.preferences.catalogue import BY_NAME
 from workbench.app.preferences.environment import set_environment
 from workbench.app.preferences.preferences import Preferences
+from workbench.app.style import style_sheet
 from workbench.app.views import drawing_style
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Applying(QObject):
         if points:
             font.setPointSize(points)
         self._application.setFont(font)
-        self._window.setStyleSheet(self._window.styleSheet())  # else what it styles keeps its letters
+        self._window.setStyleSheet(style_sheet(self._window.theme))  # else what it styles keeps its letters
 
     def _tool_bar(self, style: str) -> None:
         for bar in self._window.findChildren(QToolBar):
@@ -133,15 +134,19 @@ class Applying(QObject):
         self._window.autosave.set_interval(seconds)
 
     def _first_choices(self) -> None:
-        """A new window begins with these; nothing is open yet."""
-        document = self._window.document
+        """A new window begins with these, where they are still there; nothing is open yet."""
         wanted = {name: self._preferences[name] for name in ("distortion", "solver")}
-        document.session = replace(document.session, **wanted)
+        wanted = {name: id for name, id in wanted.items() if id != BY_NAME[name].default}
+        if wanted:
+            from workbench.core.registry import registry  # the methods are found on a thread otherwise
+
+            found = {"distortion": registry().distortions, "solver": registry().solvers}
+            document = self._window.document
+            document.session = replace(document.session, **{name: id for name, id in wanted.items() if id in found[name]})
 
     def _begin_engine_anew(self) -> None:
-        set_environment(self._preferences.values)
         document = self._window.document
-        if document.mesh is None:
+        if not set_environment(self._preferences.values) or document.mesh is None:
             return
         if document.wants_to_run:
             self._window.bridge.restarted.connect(self._run_on, Qt.ConnectionType.SingleShotConnection)

@@ -40,7 +40,8 @@ class Preference:
 
     def check(self, value: object) -> Any:
         """`value` where it fits. Raises `WorkbenchError`."""
-        if not isinstance(value, bool | int | float | str) or isinstance(value, bool) != (self.parameter.type is bool):
+        own = self.parameter.type
+        if type(value) is not own and not (own is float and type(value) is int):
             raise WorkbenchError(f"{self.name} cannot be {value!r}.")
         return self.parameter.check(value)
 

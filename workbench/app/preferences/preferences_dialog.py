@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
@@ -38,7 +38,7 @@ class PreferencesDialog(QDialog):
         self.fields: dict[str, PreferenceField] = {}
         self.pages = QListWidget(self)
         self.pages.addItems(list(PAGES))
-        self.pages.setFixedWidth(self.pages.sizeHintForColumn(0) + 28)
+        self._fit_pages()
         self.stack = QStackedWidget(self)
         for page in PAGES:
             self.stack.addWidget(self._make_page(page))
@@ -90,6 +90,15 @@ class PreferencesDialog(QDialog):
         buttons.accepted.connect(self.accept)
         buttons.rejected.connect(self.reject)
         return buttons
+
+    def _fit_pages(self) -> None:
+        self.pages.setFixedWidth(self.pages.sizeHintForColumn(0) + 28)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Larger letters take more room."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._fit_pages()
 
     # ------------------------------------------------------------------------------------------
 
