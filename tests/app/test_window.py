@@ -179,7 +179,7 @@ def test_a_refusal_offers_its_fix_and_the_fix_opens(window: MainWindow, qtbot: Q
     QTest.mouseClick(window.error_bar.fix_buttons[0], Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: window.document.session.fixes == ("cut",))
     assert commands(window, Load)[-1].fixes == ("cut",)
-    assert window.source.view.surface._cut_actor.GetVisibility()
+    assert window.source.view.surface.lines.cut.is_shown
 
 
 def test_a_refused_file_leaves_the_present_map_alive(window: MainWindow, qtbot: QtBot) -> None:

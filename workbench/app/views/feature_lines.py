@@ -30,6 +30,10 @@ class _Lines:
         self._polydata.SetLines(cells(edges))
         self.want(self._is_wanted)
 
+    @property
+    def is_shown(self) -> bool:
+        return bool(self.actor.GetVisibility())
+
     def want(self, wanted: bool) -> None:
         self._is_wanted = wanted
         self.actor.SetVisibility(wanted and self._count > 0)
@@ -39,31 +43,31 @@ class FeatureLines:
     """Three kinds of lines in one view; each is given once a mesh, and drawn while it is wanted."""
 
     def __init__(self, geometry: Geometry, theme: Theme) -> None:
-        self._cut = _Lines(geometry, CUT, 3.0, nearer=12.0)
-        self._seams = _Lines(geometry, SEAM, 3.0, nearer=11.0)
-        self._boundary = _Lines(geometry, CUT, 2.0, nearer=10.0)
-        self._boundary.want(False)
-        self.actors = (self._boundary.actor, self._seams.actor, self._cut.actor)
+        self.cut = _Lines(geometry, CUT, 3.0, nearer=12.0)
+        self.seams = _Lines(geometry, SEAM, 3.0, nearer=11.0)
+        self.boundary = _Lines(geometry, CUT, 2.0, nearer=10.0)
+        self.boundary.want(False)
+        self.actors = (self.boundary.actor, self.seams.actor, self.cut.actor)
         self.set_theme(theme)
 
     def set_theme(self, theme: Theme) -> None:
         shade = 0.95 if theme.is_dark else 0.1
-        self._boundary.actor.GetProperty().SetColor(shade, shade, shade)
+        self.boundary.actor.GetProperty().SetColor(shade, shade, shade)
 
     def set_cut(self, edges: Integers) -> None:
         """Edges (k, 2) that a fix opened: green."""
-        self._cut.set_edges(edges)
+        self.cut.set_edges(edges)
 
     def set_seams(self, edges: Integers) -> None:
         """Edges (k, 2) across which the texture of the file jumps."""
-        self._seams.set_edges(edges)
+        self.seams.set_edges(edges)
 
     def set_boundary(self, edges: Integers) -> None:
         """Edges (k, 2) of one triangle only."""
-        self._boundary.set_edges(edges)
+        self.boundary.set_edges(edges)
 
     def want(self, *, seams: bool, boundary: bool) -> None:
         """Which of them are drawn."""
-        self._cut.want(seams)
-        self._seams.want(seams)
-        self._boundary.want(boundary)
+        self.cut.want(seams)
+        self.seams.want(seams)
+        self.boundary.want(boundary)
