@@ -23,6 +23,7 @@ from workbench.app.document import Document
 from workbench.app.drawing.drawing_desk import DrawingDesk
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
+from workbench.app.glyphs.glyphs import Glyphs
 from workbench.app.handling.anchor_desk import AnchorDesk
 from workbench.app.handling.handling import Handling
 from workbench.app.history import History
@@ -119,6 +120,7 @@ class MainWindow(QMainWindow):
         self.readings = Readings(self)
         self.drawing = DrawingDesk(self)
         self.textures = TextureDesk(self)
+        self.glyphs = Glyphs(self)
         self.commands = Commands(self)
         fill_menus(self)
         fill_tool_bar(self)
@@ -368,6 +370,7 @@ class MainWindow(QMainWindow):
             self.undoing.wait()
             self.inspector.wait()
             self.commands.wait()
+            self.glyphs.wait()
             self.anchor_files.wait()
             self.carried.wait()
             self.time_line.wait()

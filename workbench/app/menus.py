@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
 from workbench.app.first_anchors import SAMPLE
+from workbench.app.glyphs.glyph_menu import GlyphMenu
 from workbench.app.reporter import source_name
 from workbench.core.samples import sample_label
 
@@ -80,6 +81,7 @@ def fill_menus(window: MainWindow) -> None:
     view.addSeparator()
     window.textures.fill_menu(view.addMenu("Pa&ttern"))
     window.time_line.fill_menu(view.addMenu("&Time line"))
+    GlyphMenu(window.glyphs, actions, view.addMenu("&Glyphs"))
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")
     for dock in window.docks:

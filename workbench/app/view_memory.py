@@ -77,6 +77,7 @@ class ViewMemory:
             "inspector": {"page": window.inspector.tabs.currentIndex()},
             "solid": window.volume.kept(),
             "pattern": window.texturing.kept(),
+            "glyphs": window.glyphs.kept(),
         }
 
     # ------------------------------------------------------------------------------------------ taking up
@@ -92,6 +93,7 @@ class ViewMemory:
         _choose(window.inspector.tabs, _table(state, "inspector").get("page"))
         window.volume.take_kept(_table(state, "solid"))
         window.texturing.take_kept(_table(state, "pattern"))
+        window.glyphs.take_kept(_table(state, "glyphs"))
         self._waiting = {name: words for name, words in _table(state, "views").items() if name in self._begins}
         self._scales = _table(state, "scales")
         self._go_on()

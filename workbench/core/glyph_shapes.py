@@ -3,31 +3,35 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from workbench.core.arrays import Floats, Integers
 
+Points = NDArray[np.floating[Any]]
+"""Of single or double precision; shapes have that of their axes."""
 CORNERS = 28
 """Of the polygon that stands for an ellipse."""
 ROUNDS = 2
 """How often an octahedron is refined to stand for a ball."""
 
 
-def stretch_lines(centres: Floats, axes: Floats) -> Floats:
+def stretch_lines(centres: Points, axes: Points) -> Points:
     """Centres (k, d), half axes (k, n, d) -> (k, n, 2, d): both ends of each axis."""
     middle = centres[:, None, :]
     return np.stack([middle - axes, middle + axes], axis=2)
 
 
-def ellipses(centres: Floats, axes: Floats) -> Floats:
+def ellipses(centres: Points, axes: Points) -> Points:
     """Centres (k, d), two half axes (k, 2, d) -> (k, `CORNERS`, d): the ellipse through their ends, once round."""
     angles = np.linspace(0.0, 2.0 * np.pi, CORNERS, endpoint=False)
     weights = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(axes.dtype)
     return np.asarray(centres[:, None, :] + weights @ axes)
 
 
-def ellipsoids(centres: Floats, axes: Floats) -> tuple[Floats, Floats]:
+def ellipsoids(centres: Points, axes: Points) -> tuple[Points, Points]:
     """Centres (k, 3), three half axes (k, 3, 3) -> points and unit normals (k, p, 3), p as in `ball`.
 
     Where an axis vanishes the normals are those of the flat shape.
