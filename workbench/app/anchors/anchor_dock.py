@@ -45,6 +45,7 @@ class AnchorDock(QDockWidget):
         self._later = self._timer(LIVE, self._show_residuals)
         self._soon = self._timer(0, self._show_anchors)
         self.model.edited.connect(self._edit)
+        self.model.modelReset.connect(self._show_choice)  # rows have moved, the table has forgotten which were selected
         self.table.chosen.connect(self._tell_choice)
         self.table.copy_wanted.connect(self.copy)
         self.table.paste_wanted.connect(self.paste)

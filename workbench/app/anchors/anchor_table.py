@@ -117,7 +117,9 @@ class AnchorTable(QTableView):
         return event.key() in OWN or bool(event.text().strip())
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.matches(Keys.Copy):
+        if self.state() == QAbstractItemView.State.EditingState:
+            super().keyPressEvent(event)  # what the editor of a cell has left over
+        elif event.matches(Keys.Copy):
             self.copy_wanted.emit()
         elif event.matches(Keys.Paste):
             self.paste_wanted.emit()
