@@ -73,7 +73,7 @@ TEXTS: dict[str, ActionText] = {
     "picture": ActionText("&Picture…", (), "Lay a PNG or JPEG over the source; it can be dropped on a view, too"),
     "pattern": ActionText("&Size and turn…", (), "How large patterns are, how they are turned, where they are even"),
     "glyphs-none": ActionText("&None", (), "No glyphs", checkable=True),
-    "glyphs-stretches": ActionText("&Stretches", (), "Lines along singular vectors, red stretched, blue squeezed", checkable=True),
+    "glyphs-stretches": ActionText("&Stretches", (), "Singular vectors: stretched red, squeezed blue", checkable=True),
     "glyphs-ellipses": ActionText("&Ellipses", (), "What the map makes of equal circles, in space of balls", checkable=True),
     "glyphs-on-source": ActionText("On the s&ource", (), "Show glyphs on the source", checkable=True),
     "glyphs-on-target": ActionText("On the &target", (), "Show glyphs on the target", checkable=True),
