@@ -42,6 +42,7 @@ def fill_menus(window: MainWindow) -> None:
     carried = file_menu.addMenu("Carry a sur&face")
     carried.aboutToShow.connect(lambda: fill_carried(window, carried))
     file_menu.addAction(actions["figure"])
+    file_menu.addAction(actions["film"])
     screenshots = file_menu.addMenu("S&creenshot of")
     screenshots.aboutToShow.connect(lambda: fill_screenshots(window, screenshots))
     file_menu.addSeparator()
