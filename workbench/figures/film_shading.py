@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.core.arrays import Floats, Integers
+from workbench.engine.compile_elsewhere import compile_elsewhere
 from workbench.figures.mesh_pictures import FINER, TEXTURE
 from workbench.figures.raster import rasterise
 
@@ -106,3 +107,15 @@ def _shade(  # type: ignore[no-untyped-def]
                 for k in range(3):
                     value = share * (255.0 * mixed[k] + (finer * finer - covered) * picture[row, column, k])
                     picture[row, column, k] = np.uint8(min(max(value + 0.5, 0.0), 255.0))
+
+
+def compile_shading() -> None:
+    """Compile what draws films, in a process of its own unless it was before: nothing here is held up meanwhile."""
+    compile_elsewhere(_shade, use_shading)
+
+
+def use_shading() -> None:
+    """Draw one triangle."""
+    corner = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
+    one = Paint(np.ones((1, 3)), np.empty((0, 2)))
+    draw_triangles(corner, np.array([[0, 1, 2]]), np.zeros(1, np.int64), one, np.zeros((4, 4, 3), np.uint8))

@@ -20,8 +20,9 @@ from workbench.session.moments import Moment
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+    from workbench.app.timeline.filming import Filming
 
-ACTIONS = ("past-live", "past-go-on")
+ACTIONS = ("past-live", "past-go-on", "film")
 
 
 class TimeLine(QObject):
@@ -40,6 +41,7 @@ class TimeLine(QObject):
         self.dock.hide()
         window.docks.append(self.dock)
         views = (window.source.view, window.target.view, *(dock.view for dock in window.maps))
+        self.filming: Filming | None = None
         self.badges = {view: PastBadge(view) for view in views}
         self._connect()
 
@@ -47,6 +49,7 @@ class TimeLine(QObject):
         dock, looking, actions = self.dock, self.looking, self._window.actions_by_name
         actions["past-live"].triggered.connect(lambda _=False: looking.go_live())
         actions["past-go-on"].triggered.connect(lambda _=False: self.go_on())
+        actions["film"].triggered.connect(lambda _=False: self.film())
         dock.play_wanted.connect(self.player.toggle)
         dock.speed.currentIndexChanged.connect(lambda _: self._set_speed())
         dock.mark_wanted.connect(self.mark)
@@ -72,6 +75,8 @@ class TimeLine(QObject):
         """Let threads end before the window does."""
         self.player.stop()
         self.looking.wait()
+        if self.filming is not None:
+            self.filming.wait()
 
     # ------------------------------------------------------------------------------------------ showing
 
@@ -134,6 +139,14 @@ class TimeLine(QObject):
         positions = moment.positions
         self._document.changing.emit("Take a map", "")  # ends looking back, too
         self._document.restore(session, positions)
+
+    def film(self) -> None:
+        """Ask for a film of the time line."""
+        if self.filming is None:
+            from workbench.app.timeline.filming import Filming  # late: it is not needed for the first picture
+
+            self.filming = Filming(self._window, self)
+        self.filming.ask()
 
     def set_memory(self, megabytes: int) -> None:
         """Keep maps of so many megabytes at most, from now on and in the next window."""
