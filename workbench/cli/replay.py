@@ -30,7 +30,8 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
     parser = commands.add_parser(name, help="repeat a session of the window")
     add = parser.add_argument
     add("file", metavar="SESSION", help="session file: .dwb, or .json")
-    add("--out", required=True, metavar="DIR", help="folder for map, report.json, history.csv and anchors.csv")
+    add("--out", metavar="DIR", help="folder for map, report.json, history.csv and anchors.csv")
+    add("--script", metavar="FILE.py", help="write a Python script that repeats the session; nothing is run without --out")
     add("--mesh", metavar="FILE", help="the mesh, where it is not at the place that the session names, or was changed")
     add("--threads", type=positive_count, metavar="N", help="threads of the kernels and the linear algebra")
     add("--quiet", action="store_true", help="no progress; errors are still said")
@@ -45,13 +46,20 @@ def run(options: argparse.Namespace) -> int:
     from workbench.io.atomic import check_folder
     from workbench.io.opening import open_source
 
-    check_folder(options.out)
+    if not (options.out or options.script):
+        raise WorkbenchError("Name a folder with --out, or a Python script to write with --script.")
+    if options.out:
+        check_folder(options.out)
     record = _with_mesh(read_session(options.file), options.mesh)
     session = record.session
     opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
     tell = teller(options.quiet)
     for note in opened.notes:
         tell(note)
+    if options.script:
+        _write_script(options, record, opened)
+    if not options.out:
+        return 0
     with InterruptFlag() as interrupt:
         found = replay(record, opened, interrupt=interrupt)
         report = _write(options, record, opened, found)
@@ -61,6 +69,14 @@ def run(options: argparse.Namespace) -> int:
         print("workbench: The energy is not the one that was recorded; the map was written all the same.", file=sys.stderr)
         return RUN_FAILED
     return 0
+
+
+def _write_script(options: argparse.Namespace, record: SessionRecord, opened: OpenedSource) -> None:
+    from workbench.engine.python_script import write_script
+
+    write_script(options.script, replace(record, sha256="") if options.mesh else record, opened)
+    if not options.quiet:
+        print(f"A script that repeats the session: {options.script}")
 
 
 def _with_mesh(record: SessionRecord, mesh: str | None) -> SessionRecord:

@@ -108,9 +108,9 @@ def replay(
     check_maps(record, opened)
     problem = problem_of(record.session, opened)
     solver = solver_of(record.session, problem)
-    initializer = _initializer(record.session, opened, solver)
+    initializer = initializer_of(record.session, opened, solver)
     if not record.legs and record.map is None:
-        start = _start(record.session, opened, initializer, problem)
+        start = start_of(record.session, opened, initializer, problem)
         problem, session = _with_boundary(problem, record.session, start), record.session
         result = run(
             solver,
@@ -150,7 +150,7 @@ def _repeat(
         leg_problem = _problem_of_leg(problem, leg)
         if leg.origin != "previous":
             positions = leg.positions
-            positions = _start(leg.choices, opened, initializer, leg_problem) if positions is None else positions
+            positions = start_of(leg.choices, opened, initializer, leg_problem) if positions is None else positions
         assert positions is not None
         leg_problem = _with_boundary(leg_problem, leg.choices, positions)
         first, last = iterate_exactly(
@@ -192,13 +192,15 @@ def _with_boundary(problem: Problem, choices: Session, positions: Floats) -> Pro
     return problem.with_anchors(problem.anchors.with_added(boundary, positions[boundary]))
 
 
-def _initializer(session: Session, opened: OpenedSource, solver: Solver) -> str:
+def initializer_of(session: Session, opened: OpenedSource, solver: Solver) -> str:
+    """Id of the start of a session on a mesh."""
     if session.initializer:
         return session.initializer
     return "file" if opened.start is not None else default_initializer(opened.kind, solver.initializer)
 
 
-def _start(session: Session, opened: OpenedSource, initializer: str, problem: Problem) -> Floats:
+def start_of(session: Session, opened: OpenedSource, initializer: str, problem: Problem) -> Floats:
+    """(n, d) start that a session makes on a mesh for a problem. Raises `WorkbenchError`."""
     if opened.start is not None and not session.initializer:
         return adjusted_start(opened.mesh, opened.kind, opened.start, False)
     values, file = session.initializer_parameters, session.start_file

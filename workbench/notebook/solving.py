@@ -36,6 +36,7 @@ def solve(
     solver: str | Solver = "projected-newton",
     init: StartGiven = None,
     anchors: AnchorsGiven = None,
+    equations: str | os.PathLike[str] | Sequence[str] | None = None,
     iterations: int = 1000,
     tolerance: float = 1e-6,
     gradient_tolerance: float | None = None,
@@ -60,6 +61,7 @@ def solve(
     solver                 an id, or a solver made by `solver(id, ...)`
     init                   an initializer, a file, positions (n, d), or an earlier result to go on from
     anchors                {vertex: target}, (vertices, targets), `Anchors`, or a CSV file; None: those of the mesh
+    equations              linear constraints: lines such as "x[12] - x[30] = 0", or a file of them
     iterations, time_limit        limits, the latter in seconds
     tolerance, gradient_tolerance    when it is done (see `Solver.terminate`)
     parameters             of the distortion, the solver or the initializer by name, the first that has it
@@ -85,13 +87,14 @@ def solve(
         init_parameters=init_parameters or {},
         match_area=match_area,
         anchors=problem.anchors if problem is not None and held is None else held,
+        equations=os.fspath(equations) if isinstance(equations, os.PathLike) else equations or (),
         pin_boundary=pin_boundary,
         allow_inversions=allow_inversions or (problem is not None and problem.density.allow_inversions),
         seed=seed,
     )
     prepared = prepare(wishes, source.opened, solver)
-    if problem is not None and problem.constraints is not None:
-        prepared = replace(prepared, problem=replace(prepared.problem, constraints=problem.constraints))
+    if problem is not None and problem.constraints is not None and equations is None:
+        prepared = replace(prepared, problem=prepared.problem.with_constraints(problem.constraints))
     line = nullcontext(progress) if callable(progress) else ProgressLine(progress)
     with InterruptFlag() as interrupt, line as on_row:
         if exactly:
