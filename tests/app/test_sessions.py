@@ -327,6 +327,11 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
     begin = pixel_of(view, int(document.anchors.vertices[0]))
     hand.drag(begin, begin + QPoint(25, -30))
     qtbot.waitUntil(rested, timeout=LONG)
+    pulled, last = document.anchors.vertices[1:2], int(document.anchors.vertices[-1])
+    soft = document.anchors.weighted(pulled.tolist(), 2.0).moved(pulled, document.anchors.targets_of(pulled) + 0.2)
+    document.set_anchors(soft.switched([last], on=False))
+    qtbot.wait(300)
+    qtbot.waitUntil(rested, timeout=LONG)
     for change in (
         {"distortion": "lam*symmetric_dirichlet + (1 - lam)*mips", "distortion_parameters": {"lam": 0.25}},
         {"solver": "l-bfgs"},
@@ -340,6 +345,8 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
     record = read_session(tmp_path / "s.dwb")
     assert len(record.legs) >= 3 and record.legs[0].origin == "map", "the hand had its part"
     assert record.energy == document.snapshot.row.energy
+    assert record.session.anchors_off == {last} and set(record.session.anchor_weights) == {2.0, np.inf}
+    assert np.linalg.norm(document.positions[pulled] - soft.targets_of(pulled)) > 1e-3, "it yields"
     assert main(["run", str(tmp_path / "s.dwb"), "--out", str(tmp_path / "out"), "--quiet"]) == 0
     with np.load(tmp_path / "out" / "map.npz") as case:
         np.testing.assert_allclose(case["X"], document.positions, atol=1e-9 * document.mesh.diameter)
