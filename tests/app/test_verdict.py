@@ -10,6 +10,8 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import solid_mesh
 from workbench.app.main_window import MainWindow
+from workbench.app.quantities import CONFORMAL_FACTOR, LIVE_QUANTITIES
+from workbench.app.verdict.ranked_places import worst_first
 from workbench.app.verdict.verdict_window import judged, words_of
 from workbench.core.mesh import Mesh
 
@@ -53,7 +55,7 @@ def test_places_to_blame_are_listed_marked_and_looked_at(
 
 def test_of_a_solid_the_place_can_be_drawn_alone_until_the_list_is_closed(window: MainWindow, qtbot: QtBot) -> None:
     open_and_fold(window, qtbot, "solid", "volume", 42)
-    window.actions_by_name["next-place"].trigger()
+    window.actions_by_name["judge"].trigger()
     judging = window.commands.judging
     qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0, timeout=60_000)
     judging.walk(1)
@@ -76,3 +78,45 @@ def test_a_boundary_that_meets_itself_is_told_by_its_pairs() -> None:
     words, offenders = judged(mesh, np.vstack([corners, corners + 0.1]))
     assert words.startswith("Locally injective, but not as a whole")
     assert offenders[0].kind == "boundary" and "–" in words_of(offenders[0], 0)
+
+
+def test_f3_walks_through_inverted_simplices_without_a_list(window: MainWindow, qtbot: QtBot) -> None:
+    open_and_fold(window, qtbot, "grid", "plane", 110)
+    inverted = np.flatnonzero(window.document.snapshot.inverted).tolist()
+    assert len(inverted) > 1
+    window.brush.clear()
+    seen = []
+    for _ in [*inverted, 0]:
+        QTest.keyClick(window, Qt.Key.Key_F3)
+        seen += window.brush.simplices.tolist()
+    assert seen == [*inverted, inverted[0]]
+    assert window.commands.judging.list is None
+    QTest.keyClick(window, Qt.Key.Key_F3, Qt.KeyboardModifier.ShiftModifier)
+    assert window.brush.simplices.tolist() == inverted[-1:]
+
+
+def test_f4_goes_from_the_worst_simplex_to_the_next_worst(window: MainWindow, qtbot: QtBot) -> None:
+    window.document.pin(np.arange(window.document.mesh.vertex_count))
+    window.document.move_anchor(110, window.document.positions[110] + [0.02, 0.01], False)
+    window.set_target_style("condition-number")
+    field = window.quantities["condition-number"].field
+    qtbot.waitUntil(lambda: field in window.document.snapshot.fields)
+    values = window.document.snapshot.fields[field]
+    seen = []
+    for _ in range(4):
+        QTest.keyClick(window, Qt.Key.Key_F4)
+        (simplex,) = window.brush.simplices.tolist()
+        seen.append(simplex)
+    assert len(set(seen)) == 4
+    assert sorted(values[seen], reverse=True) == values[seen].tolist() == np.sort(values)[::-1][:4].tolist()
+    QTest.keyClick(window, Qt.Key.Key_F4, Qt.KeyboardModifier.ShiftModifier)
+    assert window.brush.simplices.tolist() == seen[2:3]
+    window.brush.clear()
+    QTest.keyClick(window, Qt.Key.Key_F4)
+    assert window.brush.simplices.tolist() == seen[:1], "after Esc it begins anew"
+
+
+def test_of_factors_the_worst_is_farthest_from_one_on_either_side() -> None:
+    values = np.array([1.0, 4.0, 0.2, np.nan, 2.0, -1.0])
+    assert worst_first(CONFORMAL_FACTOR, values).tolist() == [3, 5, 2, 1, 4, 0]
+    assert worst_first(LIVE_QUANTITIES[0], values[[0, 1, 2, 4]]).tolist() == [1, 3, 0, 2]

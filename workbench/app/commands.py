@@ -22,6 +22,7 @@ from workbench.app.reporter import source_name
 from workbench.app.saving import FILTERS, SURFACE_FILTERS, Saver, SaveRequest
 from workbench.app.switches import name_of_distortion
 from workbench.app.verdict.judging import Judging
+from workbench.app.verdict.ranked_places import RankedPlaces
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ class Commands(QObject):
         self.racing = Racing(window)
         self.composing = Composing(window)
         self.judging = Judging(window)
+        self.ranked = RankedPlaces(window)
         self.binding = Binding(window)
         self.commanding = Commanding(window)
         window.carried.told.connect(window.status.say)
@@ -87,6 +89,8 @@ class Commands(QObject):
             "judge": self.judging.ask,
             "next-place": lambda: self.judging.walk(1),
             "last-place": lambda: self.judging.walk(-1),
+            "worst": lambda: self.ranked.walk(1),
+            "less-bad": lambda: self.ranked.walk(-1),
             "preferences": lambda: window.preferring.ask(),
             "palette": self.commanding.ask,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),

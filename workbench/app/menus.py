@@ -68,7 +68,7 @@ def fill_menus(window: MainWindow) -> None:
     for name in ("signatures", "dissect"):
         analyse.addAction(actions[name])
     analyse.addSeparator()
-    for name in ("judge", "next-place", "last-place"):
+    for name in ("judge", "next-place", "last-place", "worst", "less-bad"):
         analyse.addAction(actions[name])
     view = bar.addMenu("&View")
     view.addAction(actions["palette"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from PySide6.QtCore import QObject
 
 from workbench.app.verdict.verdict_window import VerdictWindow
@@ -40,11 +41,27 @@ class Judging(QObject):
         self.list.ask()
 
     def walk(self, step: int) -> None:
-        """To the next place that is to blame, or the one before."""
-        if self.list is None:
-            self.ask()
-        else:
+        """To the next place of the list, or the one before; without a list to the next inverted simplex.
+
+        Where none is inverted the map is judged: there may be other places.
+        """
+        if self.list is not None:
             self.list.walk(step)
+        elif not self._walk_inverted(step):
+            self.ask()
+
+    def _walk_inverted(self, step: int) -> bool:
+        document, brush = self._window.document, self._window.brush
+        inverted = np.empty(0, np.int64) if document.shown is None else np.flatnonzero(document.shown.inverted)
+        if not len(inverted) or document.mesh is None:
+            return False
+        last = int(brush.simplices[0]) if brush.origin == ORIGIN else -1
+        place = int(np.searchsorted(inverted, last, side="right" if step > 0 else "left")) - (step < 0)
+        simplex = int(inverted[place % len(inverted)])
+        show_place(self._window, simplex, ORIGIN)
+        number = f"{place % len(inverted) + 1:,} of {len(inverted):,}"
+        self._window.status.say(f"Inverted {document.mesh.simplex_noun()} {simplex}, {number}; Ctrl+J tells more of the map.")
+        return True
 
     def close(self) -> None:
         if self.list is not None:
@@ -54,6 +71,17 @@ class Judging(QObject):
         self.list = None
 
     def _show(self, vertices: Integers, simplices: Integers) -> None:
-        self._window.brush.brush(simplices, ORIGIN)
-        for pane in (self._window.source, self._window.target):
-            pane.view.look_at(vertices, AROUND)
+        show_places(self._window, vertices, simplices, ORIGIN)
+
+
+def show_places(window: MainWindow, vertices: Integers, simplices: Integers, origin: str) -> None:
+    """Mark simplices (k,) everywhere, and bring vertices (v,) before the eye in source and target."""
+    window.brush.brush(simplices, origin)
+    for pane in (window.source, window.target):
+        pane.view.look_at(vertices, AROUND)
+
+
+def show_place(window: MainWindow, simplex: int, origin: str) -> None:
+    """Mark one simplex and bring it before the eye."""
+    assert window.document.mesh is not None
+    show_places(window, window.document.mesh.simplices[simplex], np.array([simplex]), origin)
