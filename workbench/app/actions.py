@@ -92,6 +92,8 @@ TEXTS: dict[str, ActionText] = {
     "worst": ActionText("W&orst simplex", ("F4",), "To the worst simplex by what is shown; again: the next worst (F4)"),
     "less-bad": ActionText("One worse", ("Shift+F4",), "Back to the simplex that is one worse (Shift+F4)"),
     "dissect": ActionText("A step &dissected…", ("Ctrl+D",), "Direction, bound and line search of the next step"),
+    "save-layout": ActionText("&Save the layout as…", (), "Keep the panels as they lie now under a name"),
+    "present": ActionText("&Present", ("F11",), "Views alone on the whole screen; F11 ends it", checkable=True),
     "preferences": ActionText("Pre&ferences…", ("Ctrl+,",), "What the window looks like, begins with and keeps"),
     "palette": ActionText("&Command palette…", ("Ctrl+Shift+P",), "Find whatever the window can do by a few letters"),
     "past-live": ActionText("&Newest map", (), "Let the views show the newest map again, as it comes"),

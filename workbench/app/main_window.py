@@ -28,6 +28,7 @@ from workbench.app.handling.anchor_desk import AnchorDesk
 from workbench.app.handling.handling import Handling
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
+from workbench.app.layouts.layouts import Layouts
 from workbench.app.menus import fill_menus, fill_tool_bar
 from workbench.app.method_finder import MethodFinder, find_methods
 from workbench.app.notices.floating_column import FloatingColumn
@@ -128,6 +129,7 @@ class MainWindow(QMainWindow):
         self._connect()
         self._apply_theme(self.theme)
         self.preferring = Preferring(self)
+        self.layouts = Layouts(self)
         self.view_memory = ViewMemory(self)
         self._restore_layout()
         self._finder = MethodFinder(self)
@@ -337,10 +339,7 @@ class MainWindow(QMainWindow):
     # ------------------------------------------------------------------------------------------ end
 
     def _restore_layout(self) -> None:
-        layout = self.settings.layout()
-        if layout is not None:
-            self.restoreGeometry(layout[0])
-            self.restoreState(layout[1])
+        self.layouts.restore()
         self.view_memory.restore(self.settings.views())
 
     def closeEvent(self, event: QCloseEvent) -> None:
@@ -351,7 +350,7 @@ class MainWindow(QMainWindow):
         if not self._is_closed:
             self.autosave.end()
             self._is_closed = True
-            self.settings.save_layout(self.saveGeometry(), self.saveState())
+            self.layouts.keep()
             self.settings.save_views(self.view_memory.state())
             self.settings.sync()
             self.turns.stop()

@@ -87,6 +87,8 @@ def fill_menus(window: MainWindow) -> None:
     panels = view.addMenu("&Panels")
     for dock in window.docks:
         panels.addAction(dock.toggleViewAction())
+    layout = view.addMenu("La&yout")
+    layout.aboutToShow.connect(lambda: window.layouts.fill_menu(layout))
     help_menu = bar.addMenu("&Help")
     for name in ("shortcuts", "report", "about"):
         help_menu.addAction(actions[name])

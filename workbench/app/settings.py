@@ -118,6 +118,13 @@ class Settings:
             return geometry, state
         return None
 
+    def save_layouts(self, layouts: dict[str, str]) -> None:
+        self._store.setValue("layouts", json.dumps(layouts))
+
+    def layouts(self) -> dict[str, Any]:
+        """Those of the user by name, as they stand in the file."""
+        return self._table("layouts")
+
     def save_views(self, state: dict[str, Any]) -> None:
         self._store.setValue("views", json.dumps(state))
 
@@ -131,6 +138,13 @@ class Settings:
     def preferences(self) -> dict[str, Any]:
         """What was chosen there, as it stands in the file; empty where nothing was."""
         return self._table("preferences")
+
+    def save_handling(self, customs: dict[str, Any]) -> None:
+        self._store.setValue("handling", json.dumps(customs))
+
+    def handling(self) -> dict[str, Any]:
+        """How anchors go along with others; empty where nothing was kept, or nothing that can be read."""
+        return self._table("handling")
 
     def _table(self, key: str) -> dict[str, Any]:
         try:
