@@ -98,6 +98,7 @@ TEXTS: dict[str, ActionText] = {
     "palette": ActionText("&Command palette…", ("Ctrl+Shift+P",), "Find whatever the window can do by a few letters"),
     "past-live": ActionText("&Newest map", (), "Let the views show the newest map again, as it comes"),
     "past-go-on": ActionText("&Go on from here", (), "Take the earlier map that is shown, with its anchors; undo brings back"),
+    "past-compare": ActionText("&Compare A and B…", (), "How two moments of the time line differ: maps, colours, displacement"),
     "film": ActionText("&Film…", (), "Make a GIF or an MP4 of the time line"),
     "shortcuts": ActionText("&Mouse and keys", ("F1",)),
     "report": ActionText("&Report on the mesh"),
