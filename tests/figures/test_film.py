@@ -22,7 +22,7 @@ MESH = grid_mesh(9, 7)
 MAPS = [MESH.vertices * [1.0 + 0.1 * k, 1.0] for k in range(5)]
 WORDS = [f"iteration {k}" for k in range(5)]
 TARGET = Panel("map", colour=PLAIN, caption="Target", edges=True)
-COLOURED = Panel("map", colour="symmetric-dirichlet", caption="Colours")
+COLOURED = Panel("map", colour="symmetric-dirichlet", caption="Colours", bar=True)
 SMALL = Film((TARGET, COLOURED), 240, 160, 20.0)
 
 

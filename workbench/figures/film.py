@@ -113,7 +113,7 @@ class FilmDrawer:
         frames = self._frames(stills, look)
         self._scales = self._fitted_scales(stills, look)
         cells = [
-            Cell(panel.caption.strip(), frame.half[1] / frame.half[0], self._scales.get(i), self._words(i))
+            Cell(panel.caption.strip(), frame.half[1] / frame.half[0], self._scales.get(i) if panel.bar else None, self._words(i))
             for i, (panel, frame) in enumerate(zip(film.panels, frames, strict=True))
         ]
         self.page: FilmPage = make_page(cells, film.width, film.height, film.ground, film.has_captions)

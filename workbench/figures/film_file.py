@@ -28,6 +28,8 @@ INSTALL = (
 )
 PALETTE_FROM = 6
 """Frames from which the colours of a GIF are taken, all over the film."""
+SAMPLE = 120_000
+"""Pixels of those frames that are looked at for colours."""
 TRANSPARENT = 255
 QUALITY = 18
 """Constant rate factor of H.264: no loss is seen."""
@@ -119,7 +121,8 @@ def _palette(drawer: FilmDrawer, stills: Sequence[Still], cancelled: Callable[[]
         _look(cancelled)
         frames.append(drawer.draw(stills[row]))
     kept = np.rint(255 * drawer.colours).astype(np.uint8)
-    montage = Image.fromarray(np.concatenate([frame[::2, ::2].reshape(-1, 1, 3) for frame in frames]))
+    step = max(1, round((sum(frame.size // 3 for frame in frames) / SAMPLE) ** 0.5))
+    montage = Image.fromarray(np.concatenate([frame[::step, ::step].reshape(-1, 1, 3) for frame in frames]))
     found = montage.quantize(TRANSPARENT - len(kept), method=Image.Quantize.MEDIANCUT).getpalette() or []
     colours = kept.ravel().tolist() + found
     image = Image.new("P", (1, 1))

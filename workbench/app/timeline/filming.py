@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -69,6 +70,8 @@ class Filming(QObject):
         if self.dialog is not None:
             self.dialog.deleteLater()
         offers = [offer for offer in offers_of(window) if offer.panel.is_picture]
+        usual = {1, len(offers) - 1}  # the target, and the last of the colour maps: few pictures are large ones
+        offers = [replace(offer, is_chosen=place in usual) for place, offer in enumerate(offers)]
         stem = Path(window.document.session.source.replace("sample:", "")).stem
         place = Path(window.settings.folder) / f"{stem}.gif"
         is_marked = len(self._time_line.dock.slider.marked) == 2

@@ -20,9 +20,10 @@ from workbench.session.moments import Moment
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+    from workbench.app.timeline.comparing import Comparing
     from workbench.app.timeline.filming import Filming
 
-ACTIONS = ("past-live", "past-go-on", "film")
+ACTIONS = ("past-live", "past-go-on", "past-compare", "film")
 
 
 class TimeLine(QObject):
@@ -42,6 +43,7 @@ class TimeLine(QObject):
         window.docks.append(self.dock)
         views = (window.source.view, window.target.view, *(dock.view for dock in window.maps))
         self.filming: Filming | None = None
+        self.comparing: Comparing | None = None
         self.badges = {view: PastBadge(view) for view in views}
         self._connect()
 
@@ -50,6 +52,7 @@ class TimeLine(QObject):
         actions["past-live"].triggered.connect(lambda _=False: looking.go_live())
         actions["past-go-on"].triggered.connect(lambda _=False: self.go_on())
         actions["film"].triggered.connect(lambda _=False: self.film())
+        actions["past-compare"].triggered.connect(lambda _=False: self.compare())
         dock.play_wanted.connect(self.player.toggle)
         dock.speed.currentIndexChanged.connect(lambda _: self._set_speed())
         dock.mark_wanted.connect(self.mark)
@@ -75,8 +78,9 @@ class TimeLine(QObject):
         """Let threads end before the window does."""
         self.player.stop()
         self.looking.wait()
-        if self.filming is not None:
-            self.filming.wait()
+        for part in (self.filming, self.comparing):
+            if part is not None:
+                part.wait()
 
     # ------------------------------------------------------------------------------------------ showing
 
@@ -96,6 +100,8 @@ class TimeLine(QObject):
     def _forget(self) -> None:
         self.dock.slider.marked.clear()
         self.dock.show_place()
+        if self.comparing is not None:
+            self.comparing.close()
 
     # ------------------------------------------------------------------------------------------ deeds
 
@@ -115,6 +121,8 @@ class TimeLine(QObject):
         else:
             marked[name] = moment
         self.dock.show_place()
+        if self.comparing is not None:
+            self.comparing.measure()
 
     def flip(self) -> None:
         """Show B where A is shown, else A."""
@@ -139,6 +147,14 @@ class TimeLine(QObject):
         positions = moment.positions
         self._document.changing.emit("Take a map", "")  # ends looking back, too
         self._document.restore(session, positions)
+
+    def compare(self) -> None:
+        """Show how A and B differ."""
+        if self.comparing is None:
+            from workbench.app.timeline.comparing import Comparing  # late: it is not needed for the first picture
+
+            self.comparing = Comparing(self._window, self)
+        self.comparing.ask()
 
     def film(self) -> None:
         """Ask for a film of the time line."""
