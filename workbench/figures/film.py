@@ -112,10 +112,7 @@ class FilmDrawer:
         }
         frames = self._frames(stills, look)
         self._scales = self._fitted_scales(stills, look)
-        cells = [
-            Cell(panel.caption.strip(), frame.half[1] / frame.half[0], self._scales.get(i) if panel.bar else None, self._words(i))
-            for i, (panel, frame) in enumerate(zip(film.panels, frames, strict=True))
-        ]
+        cells = [self._cell(i, frame) for i, frame in enumerate(frames)]
         self.page: FilmPage = make_page(cells, film.width, film.height, film.ground, film.has_captions)
         self._frames_of = [_filling(frame, box) for frame, box in zip(frames, self.page.boxes, strict=True)]
 
@@ -135,8 +132,11 @@ class FilmDrawer:
     def _plain(self) -> tuple[float, float, float]:
         return DARK_PLAIN if self.is_dark else PLAIN_COLOUR
 
-    def _words(self, index: int) -> str:
-        return title_of(measure_of(self.film.panels[index])) if index in self._evaluators else ""
+    def _cell(self, index: int, frame: Frame) -> Cell:
+        panel, aspect = self.film.panels[index], frame.half[1] / frame.half[0]
+        if index not in self._scales or not panel.bar:
+            return Cell(panel.caption.strip(), aspect)
+        return Cell(panel.caption.strip(), aspect, self._scales[index], title_of(measure_of(panel)))
 
     # ------------------------------------------------------------------------------------------ what all frames share
 
