@@ -37,6 +37,9 @@ def run_window(
     begun = begin_engine(gives_way=True, ahead=source or FIRST)  # it imports its own while this process does
     gc.disable()  # what is made now stays; `GuiGarbage` collects later
     application = make_application()
+    from workbench.app.faults.guard import Guard
+
+    guard = Guard()
     from workbench.app.engine_bridge import engine_worker
     from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
@@ -59,6 +62,7 @@ def run_window(
     window.show()
     window.start(source or FIRST)
     window.autosave.start()
+    guard.look_after(window)
     # the engine's thread shares the interpreter: it shall give the window its turn soon
     interval = sys.getswitchinterval()
     sys.setswitchinterval(0.001)
@@ -67,6 +71,7 @@ def run_window(
         return int(application.exec())
     finally:
         garbage.end()
+        guard.end()
         sys.setswitchinterval(interval)
 
 

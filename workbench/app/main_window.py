@@ -23,6 +23,7 @@ from workbench.app.document import Document
 from workbench.app.drawing.drawing_desk import DrawingDesk
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
 from workbench.app.error_bar import ErrorBar
+from workbench.app.faults.fault_desk import FaultDesk
 from workbench.app.glyphs.glyphs import Glyphs
 from workbench.app.handling.anchor_desk import AnchorDesk
 from workbench.app.handling.handling import Handling
@@ -198,6 +199,7 @@ class MainWindow(QMainWindow):
         first: list[QDockWidget] = [self.panel_dock, *self.maps, self.histogram, self.convergence]
         self.docks: list[QDockWidget] = [*first, self.inspector, self.steps, self.anchor_files.dock]
         self.noticing = Noticing(self)
+        self.faults = FaultDesk(self)
         self.docks.append(self.noticing.dock)
 
     def _make_status(self) -> None:
@@ -364,6 +366,7 @@ class MainWindow(QMainWindow):
             self.target_tool.let_go()
             self.desk.forget()
             self.bridge.close()
+            self.faults.close()
             self.noticing.close()
             self._finder.wait()
             self.undoing.wait()
