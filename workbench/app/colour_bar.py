@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QContextMenuEvent, QImage, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
@@ -11,8 +11,11 @@ from workbench.app.colour_range import ColourRange
 from workbench.app.docks.plots import decade_marks
 from workbench.app.range_menu import ask_ends, fill_range_menu
 from workbench.app.theme import INVERTED, LIGHT, Theme
+from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW
 
 BAR_HEIGHT = 11
+END = 7
+"""Width of the fields at the ends that show the colours beyond them."""
 TIP = (
     "Shared by all views that show this quantity. Yellow: inverted.\n"
     "Double click: edit the ends. Right click: hold or fit the range, scale, colours."
@@ -20,12 +23,18 @@ TIP = (
 
 
 class ColourBar(QWidget):
-    """Horizontal bar of a `ColourRange` with numbers below, and the swatch for inverted simplices."""
+    """Horizontal bar of a `ColourRange` with numbers below, and the swatch for inverted simplices.
+
+    `is_own` tells whether its view has the range for itself; None where it cannot. `own_wanted` asks for it.
+    """
+
+    own_wanted = Signal(bool)
 
     def __init__(self, colour_range: ColourRange, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.range = colour_range
         self.theme: Theme = LIGHT
+        self.is_own: bool | None = None
         self._pixels = np.empty((1, 1, 3), np.uint8)
         self._image = QImage()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -59,6 +68,12 @@ class ColourBar(QWidget):
         menu = QMenu(self)
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         fill_range_menu(menu, self.range, self)
+        if self.is_own is not None:
+            menu.addSeparator()
+            own = menu.addAction("A range of this view's own")
+            own.setCheckable(True)
+            own.setChecked(self.is_own)
+            own.toggled.connect(self.own_wanted)
         menu.popup(event.globalPos())
 
     # ------------------------------------------------------------------------------------------ painting
@@ -71,6 +86,9 @@ class ColourBar(QWidget):
         left, right = 10.0, self.width() - 14.0 - swatch
         bar = QRectF(left, 2, max(right - left, 10.0), BAR_HEIGHT)
         painter.drawImage(bar, self._image)
+        if self.range.is_clipped:
+            painter.fillRect(QRectF(bar.left(), bar.top(), END, BAR_HEIGHT), QColor.fromRgbF(*CLIPPED_BELOW))
+            painter.fillRect(QRectF(bar.right() - END, bar.top(), END, BAR_HEIGHT), QColor.fromRgbF(*CLIPPED_ABOVE))
         border = QPen(QColor(self.theme.faint), 1)
         painter.setPen(border)
         painter.setBrush(Qt.BrushStyle.NoBrush)

@@ -23,7 +23,8 @@ class ColourRange(QObject):
     """Range, scale and colours of one quantity; `changed` tells all views that show it.
 
     The ends are round numbers beyond nearly all values. They move outwards at once and inwards only when the values
-    have shrunk far, so that colours keep their meaning while a map moves; `is_locked` holds them.
+    have shrunk far, so that colours keep their meaning while a map moves; `is_locked` holds them. Beyond the ends the
+    colours of the ends go on, or, where `is_clipped`, two others stand.
     """
 
     changed = Signal()
@@ -35,6 +36,7 @@ class ColourRange(QObject):
         self.is_whole = False
         self.is_logarithmic = quantity.is_logarithmic
         self.is_reversed = False
+        self.is_clipped = False
         self.share_below = 0.0
         self.share_above = 0.0
         self._values: Floats | None = None
@@ -120,6 +122,26 @@ class ColourRange(QObject):
 
     def set_reversed(self, is_reversed: bool) -> None:
         self.is_reversed = is_reversed
+        self.changed.emit()
+
+    def set_clipped(self, is_clipped: bool) -> None:
+        """Draw what lies beyond the ends in colours that are none of the scale."""
+        self.is_clipped = is_clipped
+        self.changed.emit()
+
+    def copy(self, parent: QObject) -> ColourRange:
+        """Another range of the same quantity, as this one is now."""
+        made = ColourRange(self.quantity)
+        made.setParent(parent)
+        made.take_from(self)
+        return made
+
+    def take_from(self, other: ColourRange) -> None:
+        """Be as another range of the same quantity is now."""
+        for name in ("is_locked", "is_whole", "is_logarithmic", "is_reversed", "is_clipped", "low", "high", "_is_fresh"):
+            setattr(self, name, getattr(other, name))
+        self._values = other._values
+        self._count()
         self.changed.emit()
 
     def _refit(self) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import QObject
 
+from workbench.app.colour_range import ColourRange
 from workbench.app.docks.quantity_dock import QuantityDock
 from workbench.app.document import Document
 from workbench.app.quantity_book import QuantityBook
@@ -34,6 +35,7 @@ class Colouring(QObject):
         self._document = document
         self._book = book
         self._styles = {pane: pane.chooser.current for pane in panes}
+        self._own: dict[ViewPane, ColourRange] = {}
         self._panels = list(panels)
         book.range_changed.connect(self._range_changed)
         texturing.changed.connect(self._texture_changed)
@@ -44,17 +46,41 @@ class Colouring(QObject):
         for panel in self._panels:
             panel.quantity_changed.connect(self.watch)
             panel.visibilityChanged.connect(lambda _: self.watch())
+        for pane in self._styles:
+            self._offer_own(pane)
 
     def add(self, pane: ViewPane) -> None:
         """Colour one more view."""
         self._styles[pane] = pane.chooser.current
+        self._offer_own(pane)
         self.apply(pane)
         self.watch()
 
     def remove(self, pane: ViewPane) -> None:
         """A view is gone."""
         del self._styles[pane]
+        self._own.pop(pane, None)
         self.watch()
+
+    def _offer_own(self, pane: ViewPane) -> None:
+        pane.legend.bar.is_own = False
+        pane.legend.bar.own_wanted.connect(lambda on: self.set_own(pane, on))
+
+    def range_of(self, pane: ViewPane) -> ColourRange:
+        """The range of a view that shows a quantity: one that all views of the quantity share, or its own."""
+        own = self._own.get(pane)
+        return own if own is not None else self._book.range_of(self._styles[pane])
+
+    def set_own(self, pane: ViewPane, on: bool) -> None:
+        """Give a view a range of its own, which is as the shared one at first, or take it away."""
+        style = self._styles[pane]
+        if not on or style in PATTERNS:
+            self._own.pop(pane, None)
+        elif pane not in self._own:
+            self._own[pane] = own = self._book.range_of(style).copy(pane)
+            own.changed.connect(lambda: self.apply(pane))
+        pane.legend.bar.is_own = pane in self._own
+        self.apply(pane)
 
     def style_of(self, pane: ViewPane) -> str:
         """Name of a pattern, or id of a quantity."""
@@ -62,6 +88,9 @@ class Colouring(QObject):
 
     def set_style(self, pane: ViewPane, style: str) -> None:
         """Colour a view by a pattern or by a quantity; its values come with the next snapshot."""
+        if style != self._styles[pane]:
+            self._own.pop(pane, None)
+            pane.legend.bar.is_own = False
         self._styles[pane] = style
         pane.set_style(style)
         self.apply(pane)
@@ -87,8 +116,7 @@ class Colouring(QObject):
 
     def take(self, snapshot: Snapshot) -> None:
         """Fit the ranges of what is shown to a map."""
-        for id in self.shown():
-            colour_range = self._book.range_of(id)
+        for colour_range in (*(self._book.range_of(id) for id in self.shown()), *self._own_ranges()):
             values = snapshot.fields.get(colour_range.quantity.field)
             if values is not None:
                 colour_range.take(values)
@@ -97,7 +125,7 @@ class Colouring(QObject):
         """Give a view the colours of its style; a new mesh has none yet."""
         style, surface = self._styles[pane], pane.view.surface
         is_pattern = style in PATTERNS
-        pane.show_colours(None if is_pattern else self._book.range_of(style))
+        pane.show_colours(None if is_pattern else self.range_of(pane))
         if surface is not None and is_pattern:
             surface.show_pattern(self._texturing.texture(style))  # type: ignore[arg-type]
         self.paint(pane)
@@ -127,8 +155,12 @@ class Colouring(QObject):
         """Another mesh, maybe of another dimension."""
         if self._document.mesh is not None:
             self._book.set_dimension(self._document.mesh.dimension)
-        for colour_range in self._book.ranges():
+        for colour_range in (*self._book.ranges(), *self._own_ranges()):
             colour_range.forget()
+
+    def _own_ranges(self) -> list[ColourRange]:
+        panels = [panel.own_range for panel in self._panels if panel.own_range is not None]
+        return [*self._own.values(), *panels]
 
     def _texture_changed(self) -> None:
         for pane, style in self._styles.items():
@@ -138,4 +170,6 @@ class Colouring(QObject):
     def _range_changed(self, id: str) -> None:
         for pane, style in self._styles.items():
             if style == id:
+                if pane in self._own:
+                    self._own[pane].quantity = self._book[id]
                 self.apply(pane)

@@ -30,6 +30,10 @@ def fill_range_menu(menu: QMenu, colour_range: ColourRange, parent: QWidget) -> 
     reverse.setCheckable(True)
     reverse.setChecked(colour_range.is_reversed)
     reverse.toggled.connect(colour_range.set_reversed)
+    clip = menu.addAction("Mark what lies beyond the ends")
+    clip.setCheckable(True)
+    clip.setChecked(colour_range.is_clipped)
+    clip.toggled.connect(colour_range.set_clipped)
 
 
 class EndsDialog(QDialog):

@@ -59,9 +59,14 @@ class ViewMemory:
         # what still waits for its formula to be found is kept as it was
         views = {name: _words(book[id]) if id in book else id for name, id in shown.items()} | self._waiting
         scales = {
-            r.quantity.id: {"logarithmic": r.is_logarithmic, "reversed": r.is_reversed, "whole": r.is_whole}
+            r.quantity.id: {
+                "logarithmic": r.is_logarithmic,
+                "reversed": r.is_reversed,
+                "whole": r.is_whole,
+                "clipped": r.is_clipped,
+            }
             for r in book.ranges()
-            if r.is_logarithmic != r.quantity.is_logarithmic or r.is_reversed or r.is_whole
+            if r.is_logarithmic != r.quantity.is_logarithmic or r.is_reversed or r.is_whole or r.is_clipped
         }
         return {
             "views": views,
@@ -135,6 +140,7 @@ class ViewMemory:
         if isinstance(scale.get("logarithmic"), bool):
             colour_range.set_logarithmic(scale["logarithmic"])
         colour_range.set_reversed(scale.get("reversed") is True)
+        colour_range.set_clipped(scale.get("clipped") is True)
         if scale.get("whole") is True:
             colour_range.fit(whole=True)
 

@@ -15,6 +15,8 @@ TRIMMED = 60
 """Entries of the colour table left out at its pale end, which would be lost on white paper."""
 INVERTED = (1.0, 0.83, 0.0)
 """Colour of inverted simplices."""
+CLIPPED_BELOW, CLIPPED_ABOVE = (0.40, 0.76, 0.40), (0.0, 0.36, 0.17)
+"""Colours of what lies beyond the ends of a scale that marks it: none of any scale, nor that of inverted simplices."""
 LEAST_SPAN = 1e-3
 """Of the colour scale, as a part of its lower end: below it nothing differs but by rounding."""
 LOGARITHMIC = 8.0
@@ -65,6 +67,15 @@ def centred_scale(
     places = 0.5 + 0.5 * (np.linspace(0.0, 1.0, len(table)) - middle) / reach
     entries = np.clip(np.rint(places * (len(table) - 1)), 0, len(table) - 1).astype(np.int64)
     return ScalarMappable(norm, ListedColormap([table[entry] for entry in entries]))
+
+
+def in_the_way_of(scale: ScalarMappable, *, is_reversed: bool, is_clipped: bool) -> ScalarMappable:
+    """The scale with its colours the other way round, and with marks beyond its ends, where that is wanted."""
+    if is_reversed:
+        scale.set_cmap(scale.cmap.reversed())
+    if is_clipped:
+        scale.set_cmap(scale.cmap.with_extremes(under=CLIPPED_BELOW, over=CLIPPED_ABOVE))
+    return scale
 
 
 def _fitted(values: Floats) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Measure
 from workbench.core.signature import Signature, common_edges, densities
 from workbench.figures.charts import draw_bar, draw_curves, draw_histograms
-from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale
+from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale, in_the_way_of
 from workbench.figures.figure_maps import FigureMap
 from workbench.figures.mesh_panel import MOST_VECTORS, Scene, draw_scene, frame_in, scene_of
 from workbench.figures.mesh_pictures import frame_round
@@ -152,9 +152,10 @@ class _Composer:
         panels = [self.recipe.panels[index] for index in members]
         limits = next((panel.range for panel in panels if panel.range is not None), None)
         logarithmic = next((panel.logarithmic for panel in panels if panel.logarithmic is not None), None)
-        if panels[0].colour in CENTRED:
-            return centred_scale(values, 1.0, limits, logarithmic)
-        return colour_scale(values, limits, logarithmic)
+        is_centred = panels[0].colour in CENTRED
+        scale = centred_scale(values, 1.0, limits, logarithmic) if is_centred else colour_scale(values, limits, logarithmic)
+        is_reversed, is_clipped = any(panel.reversed for panel in panels), any(panel.clipped for panel in panels)
+        return in_the_way_of(scale, is_reversed=is_reversed, is_clipped=is_clipped)
 
     # ------------------------------------------------------------------------------------------ drawing
 

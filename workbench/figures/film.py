@@ -15,7 +15,7 @@ from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Evaluator, SingularValues
 from workbench.core.mesh import Mesh
 from workbench.core.surface_jacobians import singular_values_of_any
-from workbench.figures.colour_scale import INVERTED, centred_scale, colour_scale
+from workbench.figures.colour_scale import INVERTED, centred_scale, colour_scale, in_the_way_of
 from workbench.figures.composer import CENTRED, measure_of, title_of
 from workbench.figures.film_page import GROUNDS, INKS, Box, Cell, FilmPage, make_page
 from workbench.figures.film_shading import Paint, Pixels, draw_triangles
@@ -183,7 +183,8 @@ class FilmDrawer:
         for index, parts in found.items():
             panel = self.film.panels[index]
             make = (lambda *rest: centred_scale(rest[0], 1.0, *rest[1:])) if panel.colour in CENTRED else colour_scale
-            scales[index] = make(np.concatenate(parts), panel.range, panel.logarithmic)
+            scale = make(np.concatenate(parts), panel.range, panel.logarithmic)
+            scales[index] = in_the_way_of(scale, is_reversed=panel.reversed, is_clipped=panel.clipped)
         return scales
 
     def _singular_values(self, positions: Floats) -> SingularValues:

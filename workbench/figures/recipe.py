@@ -63,6 +63,8 @@ class Panel:
     scale : str           panels of one name share one range of colours, or of bins
     range : (low, high)   of the colours; None: fitted
     logarithmic : bool    whether the colours are; None: where they span much
+    reversed : bool       whether the colours run the other way, for all panels of one scale
+    clipped : bool        whether what lies beyond the range has colours of its own
     frame : str           maps of one name are drawn on one scale of length
     view : axes           three rows: to the right, up, to the viewer, of what lies in space; empty: where it shows itself well
     bar : bool            a colour bar below
@@ -80,6 +82,8 @@ class Panel:
     scale: str = ""
     range: tuple[float, float] | None = None
     logarithmic: bool | None = None
+    reversed: bool = False
+    clipped: bool = False
     frame: str = ""
     view: tuple[tuple[float, ...], ...] = ()
     bar: bool = False

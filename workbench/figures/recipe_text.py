@@ -241,6 +241,8 @@ PANEL: dict[str, schema.Check] = {
     "scale": _name,
     "range": _range,
     "logarithmic": schema.flag,
+    "reversed": schema.flag,
+    "clipped": schema.flag,
     "frame": _name,
     "view": _view,
     "bar": schema.flag,

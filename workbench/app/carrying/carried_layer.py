@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.colour_range import ColourRange
 from workbench.app.views.actors import actor_of, cells, mapper_of
-from workbench.app.views.colours import lookup_table
+from workbench.app.views.colours import table_of
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Floats, Integers
 from workbench.core.surface_normals import vertex_normals
@@ -64,8 +64,7 @@ class CarriedLayer:
         self._value_data.Modified()
 
     def show_range(self, colour_range: ColourRange) -> None:
-        low, high, is_logarithmic = colour_range.low, colour_range.high, colour_range.is_logarithmic
-        self._mapper.SetLookupTable(lookup_table(colour_range.colours(), low, high, logarithmic=is_logarithmic))
+        self._mapper.SetLookupTable(table_of(colour_range))
 
     def remove(self) -> None:
         self._view.remove_actor(self.actor)

@@ -14,6 +14,7 @@ from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
+    from workbench.app.colour_range import ColourRange
     from workbench.app.history import History
     from workbench.app.main_window import MainWindow
     from workbench.app.views.mesh_view import MeshView
@@ -65,14 +66,17 @@ def offers_of(window: MainWindow) -> list[Offer]:
         Offer("Source", _view(window, window.source, "source", edges)),
         Offer("Target", _view(window, window.target, "map", edges)),
     ]
+    for pane in window.splitting.panes:
+        panel = _view(window, pane, "source" if pane.is_source else "map", edges)
+        found.append(Offer(f"{pane.title}, split off: {pane.chooser.currentText()}", panel))
     for dock in window.maps:
         quantity = window.quantities[dock.quantity]
         bare = Panel("map", (NAME,), edges=edges, caption=" ", bar=True, view=_axes(dock.view))
-        panel = _coloured(window, dock.quantity, bare)
+        panel = _coloured(window, dock.range, bare)
         is_shown = any(offer.panel.kind == "map" and offer.panel.scale == panel.scale for offer in found)
         found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible() and not is_shown))
     id = window.histogram.quantity
-    histogram = _coloured(window, id, Panel("histogram", (NAME,), caption=" "))
+    histogram = _coloured(window, window.histogram.range, Panel("histogram", (NAME,), caption=" "))
     found.append(Offer(f"Histogram: {window.quantities[id].title}", histogram))
     if len(window.history) > 1:
         found.append(Offer("Curve: energy", Panel("curves", (NAME,), caption=" ")))
@@ -86,7 +90,7 @@ def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     panel = Panel(kind, (NAME,), caption="Source" if kind == "source" else "Target", edges=edges, view=_axes(pane.view))
     if style in PATTERNS:
         return replace(panel, colour=PLAIN if style == "plain" else CHEQUERED)
-    return _coloured(window, style, replace(panel, bar=True))
+    return _coloured(window, window.colouring.range_of(pane), replace(panel, bar=True))
 
 
 def _axes(view: MeshView) -> tuple[tuple[float, ...], ...]:
@@ -94,14 +98,17 @@ def _axes(view: MeshView) -> tuple[tuple[float, ...], ...]:
     return tuple(tuple(line) for line in view.camera.axes.tolist())
 
 
-def _coloured(window: MainWindow, id: str, panel: Panel) -> Panel:
-    quantity, colours = window.quantities[id], window.quantities.range_of(id)
+def _coloured(window: MainWindow, colours: ColourRange, panel: Panel) -> Panel:
+    quantity = colours.quantity
+    is_shared = colours is window.quantities.range_of(quantity.id)
     is_fitted = math.isfinite(colours.low) and math.isfinite(colours.high) and colours.low < colours.high
     return replace(
         panel,
         colour=quantity.measure.text,
         parameters=dict(quantity.measure.parameters),
-        scale=quantity.measure.id[:60],
+        scale=quantity.measure.id[:60] if is_shared else "",
         range=(colours.low, colours.high) if is_fitted else None,
         logarithmic=colours.is_logarithmic,
+        reversed=colours.is_reversed,
+        clipped=colours.is_clipped,
     )

@@ -27,6 +27,7 @@ class ColourMapDock(QuantityDock):
         self.view = MeshView(theme, body)
         self.tool = NavigationTool(self.view)
         self.legend = ColourLegend(self.range, body)
+        self.legend.bar.own_wanted.connect(self.set_own)
         layout.addWidget(self.view, 1)
         layout.addWidget(self.legend)
         self.setWidget(body)
@@ -53,6 +54,7 @@ class ColourMapDock(QuantityDock):
 
     def _show_range(self) -> None:
         self.legend.show_range(self.range)
+        self.legend.bar.is_own = self.own_range is not None
         if self.view.surface is not None:
             self.view.surface.show_range(self.range)
             self.view.refresh()

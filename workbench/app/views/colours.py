@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,10 @@ from vtkmodules.vtkCommonCore import vtkLookupTable
 from workbench.app.theme import INVERTED, Colour
 from workbench.app.views import drawing_style
 from workbench.app.views.colour_tables import colour_table
+from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW
+
+if TYPE_CHECKING:
+    from workbench.app.colour_range import ColourRange
 
 TRIMMED = 34
 """Entries left out at the pale end, which would be lost on a white background."""
@@ -42,11 +47,12 @@ def diverging_colours() -> NDArray[np.float64]:
 
 
 def lookup_table(
-    colours: NDArray[np.float64], low: float, high: float, *, logarithmic: bool = False
+    colours: NDArray[np.float64], low: float, high: float, *, logarithmic: bool = False, clipped: bool = False
 ) -> vtkLookupTable:
     """A VTK table of `colours` (k, 3) over [low, high]; NaN is drawn in the colour of inverted simplices.
 
-    `logarithmic`: equal factors have equal steps of colour; `low` is positive then.
+    `logarithmic`: equal factors have equal steps of colour; `low` is positive then. `clipped`: what lies beyond the ends
+    has two colours of its own.
     """
     table = vtkLookupTable()
     if logarithmic:
@@ -56,7 +62,19 @@ def lookup_table(
         table.SetTableValue(row, (*(float(c) for c in colour), 1.0))
     table.SetRange(low, high)
     table.SetNanColor(*INVERTED, 1.0)
+    if clipped:
+        table.SetBelowRangeColor(*CLIPPED_BELOW, 1.0)
+        table.SetAboveRangeColor(*CLIPPED_ABOVE, 1.0)
+        table.UseBelowRangeColorOn()
+        table.UseAboveRangeColorOn()
     return table
+
+
+def table_of(colour_range: ColourRange) -> vtkLookupTable:
+    """The VTK table of a range as it is now."""
+    low, high = colour_range.low, colour_range.high
+    ways = {"logarithmic": colour_range.is_logarithmic, "clipped": colour_range.is_clipped}
+    return lookup_table(colour_range.colours(), low, high, **ways)
 
 
 def single_colour(colour: Colour) -> vtkLookupTable:

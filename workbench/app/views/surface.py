@@ -15,7 +15,7 @@ from workbench.app.views import drawing_style
 from workbench.app.views.actors import THROUGH, actor_of, cells, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.canvas import draws_with_card
-from workbench.app.views.colours import lookup_table, single_colour
+from workbench.app.views.colours import single_colour, table_of
 from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.feature_lines import FeatureLines
 from workbench.app.views.geometry import Geometry
@@ -137,8 +137,7 @@ class Surface:
         self._drop_texture()
         self._actor.GetProperty().SetEdgeOpacity(0.3)
         self._is_plain = False
-        low, high, is_logarithmic = colour_range.low, colour_range.high, colour_range.is_logarithmic
-        self._mapper.SetLookupTable(lookup_table(colour_range.colours(), low, high, logarithmic=is_logarithmic))
+        self._mapper.SetLookupTable(table_of(colour_range))
 
     def show_pattern(self, texture: Texture) -> None:
         """A pattern laid over the triangles; `lay_texture` says where."""
