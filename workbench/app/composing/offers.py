@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.app.composing.figure_work import NAME, Subject
+from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS
 from workbench.core.run import HistoryRow
 from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
@@ -31,12 +32,12 @@ class Offer:
 
 
 def subject_of(window: MainWindow) -> Subject | None:
-    """The map on the screen; None while there is none."""
+    """The map on the screen, an earlier one while it is looked back at; None while there is none."""
     document = window.document
-    loaded, positions = document.loaded, document.positions
-    if loaded is None or positions is None:
+    loaded, shown = document.loaded, document.shown
+    if loaded is None or shown is None:
         return None
-    given = document.complete_session
+    given = with_anchors(document.session, document.shown_anchors)
     session = Session(
         source=given.source,
         kind=loaded.kind,
@@ -45,7 +46,7 @@ def subject_of(window: MainWindow) -> Subject | None:
         anchor_targets=given.anchor_targets,
     )
     stem = Path(given.source.replace("sample:", "")).stem
-    return Subject(stem, session, loaded.mesh, loaded.kind, positions, rows_of(window.history))  # type: ignore[arg-type]
+    return Subject(stem, session, loaded.mesh, loaded.kind, shown.positions, rows_of(window.history))  # type: ignore[arg-type]
 
 
 def rows_of(history: History) -> tuple[HistoryRow, ...]:

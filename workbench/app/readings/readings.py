@@ -49,7 +49,7 @@ class Readings(QObject):
         window.splitting.pane_made.connect(self._follow)
         window.splitting.pane_gone.connect(self._forget)
         window.document.opened.connect(self.hide)
-        window.document.snapshot_taken.connect(self._map_came)
+        window.document.shown_changed.connect(self._map_came)
         window.theme_switch.changed.connect(self.panel.set_theme)
 
     @property
@@ -96,8 +96,8 @@ class Readings(QObject):
     def read(self) -> None:
         """Show the numbers of what is under the pointer now."""
         document = self._window.document
-        mesh, positions = document.mesh, document.positions
-        if self._under is None or mesh is None or positions is None:
+        mesh, shown = document.mesh, document.shown
+        if self._under is None or mesh is None or shown is None:
             self.panel.hide()
             return
         leaf, pixel = self._under
@@ -105,7 +105,7 @@ class Readings(QObject):
         if not 0 <= simplex < mesh.simplex_count:
             self.panel.hide()
             return
-        reading = read_simplex(mesh, positions, simplex, self._evaluators(mesh.dimension))
+        reading = read_simplex(mesh, shown.positions, simplex, self._evaluators(mesh.dimension))
         text = words_of(reading, leaf.view.vertex_at(pixel), mesh.simplex_noun(), self._name_of_shown(leaf))
         where = leaf.view.mapTo(self._window, QPoint(round(pixel[0]), round(pixel[1])))
         self.panel.show_text(text, where)
