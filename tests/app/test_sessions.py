@@ -318,8 +318,9 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
     qtbot.waitUntil(lambda: document.positions is not None and bool(len(document.anchors)), timeout=LONG)
 
     def rested() -> bool:
-        snapshot = document.snapshot
-        return snapshot.phase == "finished" and snapshot.anchor_serial == document.anchor_serial
+        snapshot, session = document.snapshot, document.session
+        is_told = (snapshot.distortion, snapshot.solver) == (session.distortion, session.solver)
+        return is_told and snapshot.phase == "finished" and snapshot.anchor_serial == document.anchor_serial
 
     document.run()
     qtbot.waitUntil(rested, timeout=LONG)
