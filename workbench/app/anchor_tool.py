@@ -53,7 +53,7 @@ class AnchorTool(NavigationTool):
     picked = Signal(int)
     """vertex that was clicked while vertices are picked, -1 for none"""
     wheel_turned = Signal(float)
-    """while anchors are held: steps of the wheel"""
+    """steps of the wheel while anchors are held, where `wheel_is_taken`"""
     patch_wanted = Signal(float, float)
     """pixel of what is to be anchored as a whole"""
     anchor_unwanted = Signal(int)
@@ -71,7 +71,7 @@ class AnchorTool(NavigationTool):
         self._was_moved = False
         self._taken_from = np.zeros(3)
         self.area = AreaDrawing(view)
-        self.is_picking = False
+        self.is_picking = self.wheel_is_taken = False
         self._pending: tuple[QPointF, bool, float] | None = None
         self._keys = HoldKeys(self, view.overlay)
         self._keys.axis_pressed.connect(self._lock_axis)
@@ -158,9 +158,12 @@ class AnchorTool(NavigationTool):
         self._keys.is_free = isinstance(hold, KeyHold)
         self._keys.listen(True)
         scene = self.view.overlay.scene
-        scene.hint = hold.hint()
+        scene.hint = self._hint(hold)
         self._taken_from = scene.anchor_points[scene.is_selected].mean(axis=0)
         self.taken_up.emit()
+
+    def _hint(self, hold: Hold) -> str:
+        return hold.hint() + (" · wheel: how far others follow" if self.wheel_is_taken else "")
 
     # ------------------------------------------------------------------------------------------ move
 
@@ -210,7 +213,7 @@ class AnchorTool(NavigationTool):
         motion = self._hold.motion((where.x(), where.y()), in_stops=in_stops)
         scene = self.view.overlay.scene
         scene.hold_words, scene.hold_at = self._hold.words() if is_held else "", where
-        scene.hint = self._hold.hint()
+        scene.hint = self._hint(self._hold)
         self.motion_wanted.emit(motion, is_held, at)
 
     # ------------------------------------------------------------------------------------------ release
@@ -345,9 +348,9 @@ class AnchorTool(NavigationTool):
             self.let_go()
 
     def wheel(self, event: QWheelEvent) -> None:
-        if self.is_dragging and event.angleDelta().y():
+        if self.is_dragging and self.wheel_is_taken:
             self.wheel_turned.emit(event.angleDelta().y() / 120.0)
-        if not event.isAccepted() or not self.is_dragging:
+        else:
             super().wheel(event)
 
     # ------------------------------------------------------------------------------------------ keys

@@ -111,6 +111,22 @@ def _split(painter: QPainter) -> None:
     painter.drawLine(QPointF(32, 32), QPointF(55, 32))
 
 
+def _mirror(painter: QPainter) -> None:
+    for tip, foot in ((10, 26), (54, 38)):
+        painter.drawPolygon(QPolygonF([QPointF(tip, 50), QPointF(foot, 50), QPointF(foot, 14)]))
+    painter.drawRect(QRectF(30.5, 8, 3, 48))
+
+
+def _falloff(painter: QPainter) -> None:
+    painter.drawEllipse(QPointF(32, 32), 8, 8)
+    pen = QPen(painter.brush().color(), 4)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for radius, style in ((16, Qt.PenStyle.SolidLine), (25, Qt.PenStyle.DotLine)):
+        pen.setStyle(style)
+        painter.setPen(pen)
+        painter.drawEllipse(QPointF(32, 32), radius, radius)
+
+
 DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "run": _run,
     "pause": _pause,
@@ -125,6 +141,8 @@ DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "inspect": _inspect,
     "chain": _chain,
     "split": _split,
+    "mirror": _mirror,
+    "falloff": _falloff,
 }
 
 

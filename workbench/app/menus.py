@@ -168,7 +168,7 @@ def fill_tool_bar(window: MainWindow) -> None:
     bar.setMovable(False)
     bar.setIconSize(QSize(18, 18))
     bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-    for name in ("open", "save", "", "run", "step", "reset", "stop", "", "pin", "clear", "", "fit"):
+    for name in ("open", "save", "", "run", "step", "reset", "stop", "", "pin", "clear", "mirror", "falloff", "", "fit"):
         bar.addAction(window.actions_by_name[name]) if name else bar.addSeparator()
     bar.addAction(window.inspector.toggle)
     window.addToolBar(bar)

@@ -10,9 +10,10 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.document import Document
+from workbench.app.handling.company import Company, Gathered
 from workbench.app.handling.motion import Motion
 from workbench.app.handling.pacing import TurnPacer
-from workbench.app.handling.rigid_motion import RigidMotion
+from workbench.app.handling.train import Train
 from workbench.core.arrays import Integers
 
 TICK = 30
@@ -28,15 +29,22 @@ class AnchorDesk(QObject):
 
     given_up = Signal(float)
     """Degrees at which a turn has ended before its time"""
+    train_changed = Signal()
+    """Others go along now than did before, or nobody does"""
+    twins_missed = Signal(int, int)
+    """So many of so many anchors have no mirror twin"""
 
     def __init__(self, document: Document) -> None:
         super().__init__(document)
         self._document = document
         self._vertices: Integers = np.empty(0, np.int64)
         self._before = AnchorSet.none()
+        self.company = Company(document)
+        self.gathered: Gathered | None = None
+        self._train: Train | None = None
         self._wanted: Motion | None = None
         self._pacer: TurnPacer | None = None
-        self._is_held = False
+        self._is_held, self._is_first = False, True
         self._best, self._best_at = 0.0, 0.0
         self._timer = QTimer(self)
         self._timer.setInterval(TICK)
@@ -90,20 +98,48 @@ class AnchorDesk(QObject):
             self.given_up.emit(math.degrees(part * self._wanted.angle))
 
     def _send(self, motion: Motion, is_held: bool, at: float | None) -> None:
-        anchors = self._document.anchors
-        targets = motion.of(self._before.targets_of(self._vertices))
-        self._document.set_anchors(anchors.moved(self._vertices, targets), dragging=is_held, at=at)
+        train, anchors = self._train or self._gather(), self._document.anchors
+        if self.gathered is not None and len(self.gathered.made):
+            anchors = anchors.joined(self.gathered.anchors) if self._is_first else anchors
+        self._is_first = False
+        self._document.set_anchors(anchors.moved(train.vertices, train.after(motion)), dragging=is_held, at=at)
+
+    def _gather(self) -> Train:
+        """Who goes along is found when the first one moves."""
+        self.gathered = self.company.gather(self._before, self._vertices)
+        self._train, self._is_first = self.gathered.train(self.company.radius), True
+        self.train_changed.emit()
+        if self.gathered.missing:
+            self.twins_missed.emit(self.gathered.missing, len(self._vertices))
+        return self._train
+
+    def widen(self, steps: float) -> None:
+        """Let the falloff reach farther while anchors are held, or less far."""
+        if self.gathered is not None and self.company.customs.has_falloff and self._wanted is not None:
+            self.company.widen(steps)
+            self._train = self.gathered.train(self.company.radius)
+            self.train_changed.emit()
+            self._send(self._wanted, self._is_held, time.perf_counter())
+
+    @property
+    def train(self) -> Train | None:
+        """Those that move while some are held; None while nothing does."""
+        return self._train
 
     def cancel(self) -> None:
-        """Back to where they were taken up."""
-        if len(self._vertices):
-            self.move(RigidMotion(), False)
+        """Back to where they were taken up; what was made for it goes."""
+        if self._train is not None and self.gathered is not None:
+            anchors = self._document.anchors.moved(self._train.vertices, self._train.places)
+            self._document.set_anchors(anchors.without(*self.gathered.made.tolist()))
         self.forget()
 
     def forget(self) -> None:
         """Nothing is held any longer; what was sent stays."""
         self._timer.stop()
         self._vertices, self._wanted, self._pacer = np.empty(0, np.int64), None, None
+        had_some, self._train, self.gathered = self._train is not None, None, None
+        if had_some:
+            self.train_changed.emit()
 
     # ------------------------------------------------------------------------------------------ setting
 

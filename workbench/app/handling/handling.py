@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QMenu
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.handling.anchor_menu import AnchorMenu
 from workbench.app.handling.area_drawing import AreaMode
+from workbench.app.handling.company_controls import CompanyControls
 from workbench.app.handling.pinning import Pinning
 from workbench.core.arrays import Integers
 
@@ -37,6 +38,7 @@ class Handling(QObject):
         self._tools: list[AnchorTool] = []
         self.menu = AnchorMenu(window)
         self.pinning = Pinning(window, self._tools)
+        self.company = CompanyControls(window, self._tools)
         self._mode = AreaMode()
         self._through = window.actions_by_name["through"]
         deeds = {
@@ -63,6 +65,7 @@ class Handling(QObject):
         tool.destroyed.connect(lambda: self._tools.remove(tool))
         self.menu.connect_tool(tool)
         self.pinning.connect_tool(tool)
+        self.company.connect_tool(tool)
         tool.area.mode = self._mode
         tool.area.chosen.connect(self._take_area)
         tool.area.nothing_chosen.connect(self._say_nothing)
@@ -159,6 +162,8 @@ class Handling(QObject):
             part = menu.addMenu(title)
             for name in names:
                 part.addAction(actions[name]) if name else part.addSeparator()
+        part.addSeparator()
+        self.company.fill_menu(part)
 
 
 def _selected(count: int) -> str:

@@ -143,7 +143,9 @@ class Pinning(QObject):
             was_shown = scene.sketches.pop("pin", None) is not None
             if len(self._shown) and geometry is not None:
                 ends = geometry.points[self._shown]
-                scene.sketches["pin"] = Sketch(ends, "path", np.concatenate([ends[:1, 0], ends[:, 1]]))
+                is_shell = self.deed == "loop" and self._facets.shape[1] == 3
+                dots = None if is_shell else np.concatenate([ends[:1, 0], ends[:, 1]])
+                scene.sketches["pin"] = Sketch(ends, "shell" if is_shell else "path", dots)
             if was_shown or len(self._shown):
                 tool.view.overlay.update()
 

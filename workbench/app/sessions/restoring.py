@@ -67,11 +67,11 @@ def is_on_same_source(one: Session, other: Session) -> bool:
 def name_of_anchor_change(before: AnchorSet, after: AnchorSet) -> str:
     """What a step is called that leads from one set of anchors to another."""
     added, removed = len(set(after.targets) - set(before.targets)), len(set(before.targets) - set(after.targets))
-    if added or removed:
+    moved = sum(before.targets[v] != target for v, target in after.targets.items() if v in before.targets)
+    if moved and moved >= added and not removed:  # those that were set for it, as a mirror twin, moved along
+        verb, count = "Move", moved + added
+    elif added or removed:
         verb, count = ("Set", added) if added >= removed else ("Remove", removed)
-    elif before.targets != after.targets:
-        verb = "Move"
-        count = sum(before.targets[v] != target for v, target in after.targets.items())
     elif before.off != after.off:
         gone, back = len(after.off - before.off), len(before.off - after.off)
         verb, count = ("Switch off", gone) if gone >= back else ("Switch on", back)

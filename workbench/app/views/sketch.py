@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 class Sketch:
     """Segments (k, 2, 3) in units of the display, and dots (p, 3) on them.
 
-    `kind` : "path" what would be chosen, "reach" how far something goes, "mirror" a line of symmetry
+    `kind` : "path" what would be chosen, "shell" a whole surface that would be, "reach" how far something goes, "mirror" a
+    line of symmetry
     """
 
     segments: Floats
@@ -40,8 +41,9 @@ def paint_sketch(painter: QPainter, sketch: Sketch, view: MeshView, theme: Theme
     accent = QColor(theme.accent)
     pens = {
         "path": (QPen(QColor(theme.view), 5.5), QPen(ANCHOR_SELECTED, 3.0)),
+        "shell": (QPen(ANCHOR_SELECTED, 1.0),),
         "reach": (QPen(accent, 1.6),),
-        "mirror": (QPen(accent, 1.2, Qt.PenStyle.DashDotLine),),
+        "mirror": (QPen(accent, 1.6, Qt.PenStyle.DashDotLine),),
     }
     ends = view.project(sketch.segments.reshape(-1, 3)).reshape(-1, 4)
     painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -52,9 +54,13 @@ def paint_sketch(painter: QPainter, sketch: Sketch, view: MeshView, theme: Theme
             painter.drawLine(QPointF(a, b), QPointF(c, d))
     if sketch.dots is not None:
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(ANCHOR_SELECTED)
+        colour, radius = QColor(ANCHOR_SELECTED), 4.0
+        if sketch.kind == "reach":  # anchors lie over these: a rim is seen of them
+            colour.setAlpha(170)
+            radius = 9.0
+        painter.setBrush(colour)
         for x, y in view.project(sketch.dots).tolist():
-            painter.drawEllipse(QPointF(x, y), 4.0, 4.0)
+            painter.drawEllipse(QPointF(x, y), radius, radius)
 
 
 def paint_outline(painter: QPainter, outline: QPolygonF, theme: Theme) -> None:
