@@ -8,18 +8,19 @@ from PySide6.QtWidgets import QLabel, QWidget
 from workbench.app.theme import Theme
 
 GAP = 8
+NAME = "past-badge"
 
 
 class PastBadge(QLabel):
-    """Words in the middle of the upper edge of a view; the mouse does not see it."""
+    """Words at the upper edge of a view, in the middle or, `in_corner`, at the left; the mouse does not see it."""
 
-    def __init__(self, view: QWidget) -> None:
+    def __init__(self, view: QWidget, in_corner: bool = False) -> None:
         super().__init__(view)
-        self.setObjectName("past-badge")
+        self.setObjectName(NAME)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.hide()
-        self._view = view
+        self._view, self._in_corner = view, in_corner
         view.installEventFilter(self)
 
     def set_theme(self, theme: Theme) -> None:
@@ -42,5 +43,15 @@ class PastBadge(QLabel):
     def _place(self) -> None:
         self.adjustSize()
         self.setFixedWidth(min(self.sizeHint().width(), max(self._view.width() - 2 * GAP, 1)))
-        self.move((self._view.width() - self.width()) // 2, GAP)
+        self.move(GAP if self._in_corner else (self._view.width() - self.width()) // 2, GAP)
         self.raise_()
+
+
+def badge_of(view: QWidget, theme: Theme, *, in_corner: bool) -> PastBadge:
+    """The badge of a view; it is made when it is asked for first, and goes with the view."""
+    found = view.findChild(PastBadge, NAME)
+    if isinstance(found, PastBadge):
+        return found
+    badge = PastBadge(view, in_corner)
+    badge.set_theme(theme)
+    return badge

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QMenu
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.theme import Theme
 from workbench.app.timeline.looking_back import LookingBack
-from workbench.app.timeline.past_badge import PastBadge
+from workbench.app.timeline.past_badge import PastBadge, badge_of
 from workbench.app.timeline.player import Player
 from workbench.app.timeline.recorder import Recorder, anchors_of
 from workbench.app.timeline.time_line_dock import TimeLineDock
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
     from workbench.app.timeline.comparing import Comparing
     from workbench.app.timeline.filming import Filming
+    from workbench.app.views.mesh_view import MeshView
 
 ACTIONS = ("past-live", "past-go-on", "past-compare", "film")
 
@@ -71,7 +72,7 @@ class TimeLine(QObject):
 
     def set_theme(self, theme: Theme) -> None:
         self.dock.set_theme(theme)
-        for badge in self.badges.values():
+        for badge in self.badges().values():
             badge.set_theme(theme)
 
     def wait(self) -> None:
@@ -84,13 +85,20 @@ class TimeLine(QObject):
 
     # ------------------------------------------------------------------------------------------ showing
 
+    def badges(self) -> dict[MeshView, PastBadge]:
+        """The sign of every view that there is now."""
+        window = self._window
+        others = (*(dock.view for dock in window.maps), *(pane.view for pane in window.presenter.more))
+        views = (window.source.view, window.target.view, *others)
+        return {view: badge_of(view, window.theme, in_corner=view in others) for view in views}
+
     def _show(self) -> None:
         moment = self.looking.moment
         words = ""
         if moment is not None:
             energy = f", E {moment.energy:.6g}" if math.isfinite(moment.energy) else ""
             words = f"Past: iteration {moment.iteration}{energy}"
-        for view, badge in self.badges.items():
+        for view, badge in self.badges().items():
             badge.say(words if view is self._window.target.view else words and "Past")
         for name in ("past-live", "past-go-on"):
             self._window.actions_by_name[name].setEnabled(moment is not None)

@@ -166,4 +166,4 @@ class TimeLineDock(QDockWidget):
         inverted = f" · {moment.inverted_count} inverted" if moment.inverted_count else ""
         note = f" · {'; '.join(moment.notes)}" if moment.notes else ""
         when = f"{moment.time:.2f} of {record.end:.2f} s"
-        return f"{when} · map {index + 1} of {len(record)} · iteration {moment.iteration} · {energy}{inverted}{note}"
+        return f"iteration {moment.iteration} · {energy}{inverted}{note} · {when} · map {index + 1} of {len(record)}"
