@@ -107,7 +107,9 @@ TEXTS: dict[str, ActionText] = {
     "past-go-on": ActionText("&Go on from here", (), "Take the earlier map that is shown, with its anchors; undo brings back"),
     "past-compare": ActionText("&Compare A and B…", (), "How two moments of the time line differ: maps, colours, displacement"),
     "film": ActionText("&Film…", (), "Make a GIF or an MP4 of the time line"),
-    "shortcuts": ActionText("&Mouse and keys", ("F1",)),
+    "help": ActionText("&Help", ("F1",), "The README, at the chapter about what is in use (F1)"),
+    "log": ActionText("&Log", (), "All that was told, with times and details"),
+    "shortcuts": ActionText("&Mouse and keys", (), "Everything that mouse and keys do"),
     "report": ActionText("&Report on the mesh"),
     "about": ActionText("&About"),
 }

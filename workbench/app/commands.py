@@ -94,6 +94,8 @@ class Commands(QObject):
             "preferences": lambda: window.preferring.ask(),
             "palette": self.commanding.ask,
             "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
+            "help": window.help.show,
+            "log": window.noticing.show,
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
         }

@@ -27,6 +27,7 @@ from workbench.app.faults.fault_desk import FaultDesk
 from workbench.app.glyphs.glyphs import Glyphs
 from workbench.app.handling.anchor_desk import AnchorDesk
 from workbench.app.handling.handling import Handling
+from workbench.app.help.help_desk import HelpDesk
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.layouts.layouts import Layouts
@@ -200,6 +201,7 @@ class MainWindow(QMainWindow):
         self.docks: list[QDockWidget] = [*first, self.inspector, self.steps, self.anchor_files.dock]
         self.noticing = Noticing(self)
         self.faults = FaultDesk(self)
+        self.help = HelpDesk(self)
         self.docks.append(self.noticing.dock)
 
     def _make_status(self) -> None:
@@ -367,6 +369,7 @@ class MainWindow(QMainWindow):
             self.desk.forget()
             self.bridge.close()
             self.faults.close()
+            self.help.close()
             self.noticing.close()
             self._finder.wait()
             self.undoing.wait()

@@ -1,0 +1,1 @@
+"""The README inside the window: chapters, search, and the chapter that belongs to what is in use."""

@@ -1,0 +1,59 @@
+"""The README, cut into chapters at its headings."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from workbench.core.registry import resource_folder
+
+HEADING = re.compile(r"(#{1,3}) (.+)")
+NO_README = "# Distortion Workbench\n\nThe README is missing from this installation; install it anew to have it here.\n"
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """`level` 1 for the title's own words, 2 for chapters, 3 for parts of them; `text` is Markdown with the heading."""
+
+    title: str
+    level: int
+    text: str
+
+    def holds(self, words: str) -> bool:
+        """Whether every one of some words occurs in it."""
+        text = self.text.casefold()
+        return all(word in text for word in words.casefold().split())
+
+
+def readme_folder() -> Path:
+    """Where the README and its pictures are: inside the installed package, or at the root of a checkout."""
+    return resource_folder("assets").parent
+
+
+def read_chapters(folder: Path | None = None) -> tuple[Chapter, ...]:
+    """Chapters of the README in `folder`, in their order; one that says so where it cannot be read."""
+    try:
+        text = ((folder or readme_folder()) / "README.md").read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        text = NO_README
+    return cut_into_chapters(text)
+
+
+def cut_into_chapters(text: str) -> tuple[Chapter, ...]:
+    """Chapters of a Markdown text whose code is indented; what stands before the first heading is left out."""
+    chapters: list[Chapter] = []
+    title, level, lines = "", 0, list[str]()
+
+    def end() -> None:
+        if title:
+            chapters.append(Chapter(title, level, "\n".join(lines).rstrip() + "\n"))
+
+    for line in text.splitlines():
+        found = HEADING.fullmatch(line)
+        if found:
+            end()
+            level, title, lines = len(found[1]), found[2].strip(), []
+        lines.append(line)
+    end()
+    return tuple(chapters)
