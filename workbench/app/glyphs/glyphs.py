@@ -6,13 +6,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.background import Background
-from workbench.app.glyphs.glyph_sample import GlyphSample
 from workbench.app.texturing.texturing import number_within
+from workbench.app.views.drawn_faces import DrawnFaces
+from workbench.app.views.geometry import Geometry
 from workbench.app.views.glyph_layer import GlyphLayer
 from workbench.app.views.mesh_view import MeshView
+from workbench.core.glyph_places import GlyphPlaces
+from workbench.core.mesh import Mesh
 from workbench.engine.stretch_kernels import compile_stretches
 
 if TYPE_CHECKING:
@@ -47,7 +51,8 @@ class Glyphs(QObject):
         super().__init__(window)
         self._window = window
         self.choice = GlyphChoice()
-        self.sample: GlyphSample | None = None
+        self._places: GlyphPlaces | None = None
+        self._faces: DrawnFaces | None = None
         self._layers: dict[MeshView, GlyphLayer] = {}
         self._compiling: Background | None = None
         self._is_ready = False
@@ -80,7 +85,7 @@ class Glyphs(QObject):
     # ------------------------------------------------------------------------------------------ drawing
 
     def _forget(self) -> None:
-        self.sample = None
+        self._places = None
 
     @property
     def _views(self) -> Iterator[tuple[MeshView, bool]]:
@@ -102,25 +107,29 @@ class Glyphs(QObject):
         source, target = self._window.source.view.geometry_shown, self._window.target.view.geometry_shown
         if self.choice.kind == "none" or mesh is None or source is None or target is None or not self._can_compute():
             for layer in self._layers.values():
-                layer.show(None)
+                layer.show(None, as_lines=True)
             return
-        if self.sample is None or self.sample.faces is not source.faces:
-            count = round(min(self.choice.number * USUAL[mesh.dimension], MOST))
-            self.sample = GlyphSample(mesh, source, count)
-        stretches = self.sample.stretches(target)
+        places = self._places_on(mesh, source)
+        columns = len(target.frame.centre)
+        stretches = places.stretches(target.vertices[:, :columns].astype(np.float64) / target.frame.scale)
         as_lines, size = self.choice.kind == "stretches", self.choice.size
+        on_source = places.on_source(stretches, source.points, size, as_lines=as_lines)
+        on_target = places.on_target(stretches, target.points, size * target.frame.scale / source.frame.scale)
         views = dict(self._views)
         self._layers = {view: layer for view, layer in self._layers.items() if view in views}  # panes of splits can be gone
         for view, is_source in views.items():
-            if PLACES[0 if is_source else 1] not in self.choice.places:
-                picture = None
-            elif is_source:
-                picture = self.sample.on_source(stretches, source, size, as_lines)
-            else:
-                picture = self.sample.on_target(stretches, source, target, size, as_lines)
             if view not in self._layers:
                 self._layers[view] = GlyphLayer(view)
-            self._layers[view].show(picture)
+            is_wanted = PLACES[0 if is_source else 1] in self.choice.places
+            self._layers[view].show((on_source if is_source else on_target) if is_wanted else None, as_lines=as_lines)
+
+    def _places_on(self, mesh: Mesh, source: Geometry) -> GlyphPlaces:
+        """The places on what is drawn of the source now."""
+        if self._places is None or self._faces is not source.faces:
+            count = round(min(self.choice.number * USUAL[mesh.dimension], MOST))
+            self._faces = source.faces
+            self._places = GlyphPlaces(mesh, source.points, source.triangles, source.faces.simplices, count)
+        return self._places
 
     def _can_compute(self) -> bool:
         """Whether the kernel is there; else it is compiled beside the window, once, and glyphs come then."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from workbench.app.theme import Colour
 from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Integers
+from workbench.core.glyph_places import PlacedGlyphs
 from workbench.core.glyph_shapes import ball, ellipses, ellipsoids, stretch_lines
 
 LONGER: Colour = (0.78, 0.16, 0.12)
@@ -28,20 +28,6 @@ NEARER = 40.0
 WIDTH = 2.0
 CASING = 2.0
 """Width of lines, and how much wider what is seen of their background is, pixels."""
-
-
-@dataclass(frozen=True, eq=False)
-class GlyphPicture:
-    """What is drawn of k Jacobians, in units of the display.
-
-    `centres` (k, 3);  `axes` (k, n, 3): half axes;  `signs` (k, n): 1 where they are stretched, -1 where they are squeezed;
-    `as_lines`: one line an axis, or else the ellipse or ellipsoid with these axes
-    """
-
-    centres: NDArray[np.float32]
-    axes: NDArray[np.float32]
-    signs: Integers
-    as_lines: bool
 
 
 class GlyphLayer:
@@ -68,24 +54,27 @@ class GlyphLayer:
             actor.SetVisibility(False)
             view.add_actor(actor)
 
-    def show(self, picture: GlyphPicture | None) -> None:
-        """Draw these glyphs at the next picture of the view, or none."""
-        has_bodies = picture is not None and not picture.as_lines and picture.axes.shape[1] == 3
+    def show(self, glyphs: PlacedGlyphs | None, *, as_lines: bool) -> None:
+        """Draw glyphs, in units of the display, at the next picture of the view, or none.
+
+        `as_lines`: one line an axis, or else the ellipse or ellipsoid with these axes.
+        """
+        has_bodies = glyphs is not None and not as_lines and glyphs.axes.shape[1] == 3
         self._body.SetVisibility(has_bodies)
         for actor in (self._casing, self._core):
-            actor.SetVisibility(picture is not None and not has_bodies)
-        if picture is None:
+            actor.SetVisibility(glyphs is not None and not has_bodies)
+        if glyphs is None:
             return
         if has_bodies:
-            self._write(self._bodies, *ellipsoids(picture.centres, picture.axes), ball()[1])
-        elif picture.as_lines:
-            self._write(self._lines, stretch_lines(picture.centres, picture.axes), None, np.array([[0, 1]]))
-            self._paint(picture.signs)
+            self._write(self._bodies, *ellipsoids(glyphs.centres, glyphs.axes), ball()[1])
+        elif as_lines:
+            self._write(self._lines, stretch_lines(glyphs.centres, glyphs.axes), None, np.array([[0, 1]]))
+            self._paint(glyphs.signs)
         else:
-            rings = ellipses(picture.centres, picture.axes)
+            rings = ellipses(glyphs.centres, glyphs.axes)
             self._write(self._lines, rings, None, np.append(np.arange(rings.shape[1]), 0)[None])
             self._core.GetMapper().ScalarVisibilityOff()
-        self._dress(picture.as_lines)
+        self._dress(as_lines)
 
     def _dress(self, as_lines: bool) -> None:
         """Colours that are seen on this theme."""
