@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QAction, QKeySequence
 
+from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.icons import DRAWINGS, icon
 from workbench.app.theme import Theme
 
@@ -33,8 +34,9 @@ TEXTS: dict[str, ActionText] = {
     "redo": ActionText("Redo", ("Ctrl+Shift+Z",)),
     "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
     "figure": ActionText("Fi&gure…", ("Ctrl+E",), "Compose a figure fit to print of what the window shows"),
-    "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",)),
-    "quit": ActionText("&Quit", ("Ctrl+Q",)),
+    "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",), "Save a picture of the whole window"),
+    **{name: ActionText(kind.text, (), kind.tip) for name, kind in KINDS.items()},
+    "quit": ActionText("&Quit", ("Ctrl+Q",), "Close the window; what was not saved is kept as the last session"),
     "pin": ActionText("&Pin boundary", ("Ctrl+B",), "Set an anchor at every boundary vertex, where it is now", "pin"),
     "pin-loop": ActionText("Pin a l&oop", (), "Anchor the loop of the boundary that you click, where it is now"),
     "pin-path": ActionText("Pin a pa&th", ("P",), "Anchor the shortest path along edges between two clicks (P)"),

@@ -13,6 +13,8 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 from workbench.app.background import Background
 from workbench.app.binding.binding import Binding
 from workbench.app.composing.composing import Composing
+from workbench.app.exporting.export_kinds import KINDS
+from workbench.app.exporting.exporting import Exporting
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT, SHORTCUTS
 from workbench.app.palette.commanding import Commanding
@@ -55,6 +57,7 @@ class Commands(QObject):
         self.judging = Judging(window)
         self.ranked = RankedPlaces(window)
         self.binding = Binding(window)
+        self.exporting = Exporting(window)
         self.commanding = Commanding(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
@@ -69,6 +72,7 @@ class Commands(QObject):
             "redo": window.undoing.redo,
             "fill": self.filling.ask,
             "equations": self.binding.ask,
+            **{name: lambda n=name: self.exporting.ask(n) for name in KINDS},
             "refine": self.refining.ask,
             "figure": self.composing.ask,
             "shot-window": lambda: self.ask_screenshot(window, "window"),
@@ -111,6 +115,7 @@ class Commands(QObject):
         self.refining.wait()
         self.filling.wait()
         self.composing.wait()
+        self.exporting.wait()
         self.racing.close()
         self.judging.close()
         if self.dissection is not None:
@@ -188,10 +193,7 @@ class Commands(QObject):
 
     def save_screenshot(self, widget: QWidget, path: str) -> None:
         """Write a picture of a widget with all that is in it."""
-        if not widget.grab().save(path):
-            self._window.error_bar.show_message(f"The picture could not be written to {path}; choose another folder.")
-        else:
-            self._window.status.say(f"Saved {path}.")
+        self.exporting.save_picture(widget.grab().toImage(), path)
 
     def _ask(self, dialog: QFileDialog, deed: Any) -> None:
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import fields
 
 import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.engine.messages import HistoryRow
 
-COLUMNS = ("iteration", "seconds", "energy", "gradient_norm", "inverted")
+COLUMNS = tuple(field.name for field in fields(HistoryRow))
 
 
 class History:

@@ -38,6 +38,8 @@ def fill_menus(window: MainWindow) -> None:
     sessions.aboutToShow.connect(lambda: window.sessions.fill_recent(sessions))
     file_menu.addSeparator()
     file_menu.addAction(actions["save"])
+    exports = file_menu.addMenu("Ex&port")
+    exports.aboutToShow.connect(lambda: window.commands.exporting.fill_menu(exports))
     file_menu.addAction(actions["fill"])
     carried = file_menu.addMenu("Carry a sur&face")
     carried.aboutToShow.connect(lambda: fill_carried(window, carried))

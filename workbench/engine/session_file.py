@@ -1,4 +1,4 @@
-"""Session files: one zip with a readable `session.json` and the maps, or the JSON alone.
+"""Session files: one zip with a readable `session.json` and the maps, or the JSON alone; pictures carry either.
 
 A zip rather than a folder, so that a session is one thing to copy, and is written whole or not at all. Its members are
 stored as they are: any viewer shows the JSON in it.
@@ -23,6 +23,7 @@ from workbench.core.arrays import Floats, frozen
 from workbench.core.errors import WorkbenchError
 from workbench.io.atomic import replacing
 from workbench.io.opening import SAMPLE
+from workbench.io.png_content import content_of, is_png, with_content
 from workbench.io.read import read_bytes
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
@@ -30,6 +31,9 @@ from workbench.session.text import parsed, plain_of, readable, record_of
 
 ENDING = ".dwb"
 ENDINGS = (ENDING, ".json")
+PICTURE = ".png"
+LARGEST_CARRIED = 2**24
+"""Bytes of a session that a picture carries with its maps; of a larger one it carries the text alone."""
 JSON_MEMBER = "session.json"
 LARGEST_TEXT = 2**26
 LARGEST_ARRAYS = 2**31
@@ -56,20 +60,46 @@ def write_session(path: str | os.PathLike[str], record: SessionRecord) -> None:
         raise WorkbenchError(f"{path}: sessions are written as {' or '.join(ENDINGS)}; choose one of these endings.")
     folder = Path(os.path.realpath(path)).parent
     is_bare = path.suffix.lower() != ENDING
+    with replacing(path) as part, part.open("wb") as stream:
+        _write(stream, record, folder, is_bare)
+
+
+def picture_with_session(png: bytes, path: str | os.PathLike[str], record: SessionRecord) -> bytes:
+    """A PNG, to be written to `path`, that carries the session: `read_session` and the window open it.
+
+    A session of more than `LARGEST_CARRIED` bytes goes without its maps. Raises `WorkbenchError`.
+    """
+    folder = Path(os.path.realpath(path)).parent
+    maps = [record.map, *(leg.positions for leg in record.legs)]
+    size = sum(positions.nbytes for positions in maps if positions is not None)
+    stream = io.BytesIO()
+    _write(stream, record, folder, size > LARGEST_CARRIED)
+    return with_content(png, stream.getvalue())
+
+
+def carries_session(path: str | os.PathLike[str]) -> bool:
+    """Whether a file is a picture with a session in it."""
+    try:
+        data = read_bytes(Path(path)) if Path(path).suffix.lower() == PICTURE else b""
+        return is_png(data) and content_of(data) is not None
+    except WorkbenchError:
+        return False
+
+
+def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool) -> None:
     if is_bare:
         legs = tuple(replace(leg, positions=None) for leg in record.legs)
         record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
     plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: _relative(name, folder))))
     text = (readable(plain) + "\n").encode("utf-8")
-    with replacing(path) as part:
-        if is_bare:
-            part.write_bytes(text)
-            return
-        with zipfile.ZipFile(part, "w") as archive:
-            archive.writestr(zipfile.ZipInfo(JSON_MEMBER, LONG_AGO), text)
-            for name, array in arrays.items():
-                with archive.open(zipfile.ZipInfo(f"{name}.npy", LONG_AGO), "w", force_zip64=True) as member:
-                    np.lib.format.write_array(member, np.ascontiguousarray(array, "<f8"), allow_pickle=False)
+    if is_bare:
+        stream.write(text)
+        return
+    with zipfile.ZipFile(stream, "w") as archive:
+        archive.writestr(zipfile.ZipInfo(JSON_MEMBER, LONG_AGO), text)
+        for name, array in arrays.items():
+            with archive.open(zipfile.ZipInfo(f"{name}.npy", LONG_AGO), "w", force_zip64=True) as member:
+                np.lib.format.write_array(member, np.ascontiguousarray(array, "<f8"), allow_pickle=False)
 
 
 def read_session(path: str | os.PathLike[str]) -> SessionRecord:
@@ -86,6 +116,11 @@ def read_session(path: str | os.PathLike[str]) -> SessionRecord:
 
 def _record_in(path: Path, data: bytes) -> SessionRecord:
     arrays: Mapping[str, Floats] = {}
+    if is_png(data):
+        carried = content_of(data)
+        if carried is None:
+            raise WorkbenchError("It is a picture that carries no session.")
+        data = carried
     if data[:2] == b"PK":
         text, arrays = _unpacked(data)
     elif len(data) > LARGEST_TEXT:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.core.errors import WorkbenchError
-from workbench.io.atomic import replacing
+from workbench.io.atomic import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -53,5 +53,4 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], dpi: int = 160) ->
     Raises `WorkbenchError` where it cannot be written.
     """
     ending = check_format(path)
-    with replacing(path) as part:
-        part.write_bytes(figure_bytes(figure, ending, dpi))
+    write_bytes(path, figure_bytes(figure, ending, dpi))

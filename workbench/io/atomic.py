@@ -87,7 +87,12 @@ def _faults_told(path: str | os.PathLike[str]) -> Iterator[None]:
         raise WorkbenchError(f"{path} cannot be written: {error.strerror or error}.") from None
 
 
+def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
+    """Writes `data`, whole or not at all."""
+    with replacing(path) as part:
+        part.write_bytes(data)
+
+
 def write_text(path: str | os.PathLike[str], text: str) -> None:
     """Writes `text` as UTF-8, whole or not at all."""
-    with replacing(path) as part:
-        part.write_bytes(text.encode("utf-8"))
+    write_bytes(path, text.encode("utf-8"))

@@ -11,6 +11,7 @@ from workbench.app.background import Backgrounds
 from workbench.app.composing.figure_dialog import PREVIEW, FigureDialog
 from workbench.app.composing.figure_work import ENDINGS, Order, Subject, draw_preview, save
 from workbench.app.composing.offers import offers_of, subject_of
+from workbench.app.exporting.session_pictures import session_binder
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -116,7 +117,8 @@ class Composing(QObject):
             else:
                 window.error_bar.show_message(sentence_of(error))
 
-        self._works.start(lambda: save(order, Path(path)), done, fail)
+        bind = session_binder(window, path)
+        self._works.start(lambda: save(order, Path(path), bind), done, fail)
 
 
 def sentence_of(error: Exception) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
@@ -16,6 +17,7 @@ from workbench.core.run import HistoryRow
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import FigureMap
 from workbench.figures.recipe import MapChoice, Page, Panel, Recipe
+from workbench.io.atomic import write_bytes
 from workbench.session.session import Session
 
 NAME = "map"
@@ -68,10 +70,13 @@ def draw_preview(order: Order, pixels: int) -> bytes:
     return stream.getvalue()
 
 
-def save(order: Order, path: Path) -> tuple[str, ...]:
-    """Write the figure, or its recipe with the map beside it; sentences about what of it is no vector drawing."""
+def save(order: Order, path: Path, bind: Callable[[bytes], bytes] = bytes) -> tuple[str, ...]:
+    """Write the figure, or its recipe with the map beside it; sentences about what of it is no vector drawing.
+
+    `bind` makes the bytes that are written out of those of the figure: a picture may carry more.
+    """
     from workbench.figures.recipe_text import checked_page
-    from workbench.figures.save import save_figure
+    from workbench.figures.save import check_format, figure_bytes
 
     _check(order)
     checked_page(order.page, {})
@@ -79,7 +84,7 @@ def save(order: Order, path: Path) -> tuple[str, ...]:
         _save_recipe(order, path)
         return ()
     composition = compose(order.recipe, {NAME: order.subject.map})
-    save_figure(composition.figure, path, order.page.dpi)
+    write_bytes(path, bind(figure_bytes(composition.figure, check_format(path), order.page.dpi)))
     return composition.notes if path.suffix.lower() != ".png" else ()
 
 

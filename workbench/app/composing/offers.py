@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.app.composing.figure_work import NAME, Subject
+from workbench.app.history import COLUMNS
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS
 from workbench.core.run import HistoryRow
@@ -50,13 +51,12 @@ def subject_of(window: MainWindow) -> Subject | None:
 
 
 def rows_of(history: History) -> tuple[HistoryRow, ...]:
-    """The rows of the curves; what the window does not keep is no number."""
-    nothing = {field.name: math.nan for field in fields(HistoryRow)}
-    columns = {name: history.column(name).tolist() for name in ("iteration", "energy", "gradient_norm", "inverted", "seconds")}
+    """The rows of the curves."""
+    columns = {name: history.column(name).tolist() for name in COLUMNS}
     found = []
     for values in zip(*columns.values(), strict=True):
-        row = nothing | dict(zip(columns, values, strict=True))
-        found.append(HistoryRow(**row | {name: int(row[name]) for name in ("iteration", "inverted")}))  # type: ignore[arg-type]
+        row = dict(zip(columns, values, strict=True))
+        found.append(HistoryRow(**row | {name: int(row[name]) for name in ("iteration", "inverted")}))
     return tuple(found)
 
 

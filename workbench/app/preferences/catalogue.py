@@ -157,6 +157,13 @@ PREFERENCES: tuple[Preference, ...] = (
     _number(
         SAVING, "Every", "autosave_seconds", 4, 1, 600, "So much work is lost in a crash, at the most, and a little", unit=" s"
     ),
+    _switch(
+        SAVING,
+        "Pictures carry the session",
+        "carry_session",
+        True,
+        "A PNG that is saved can be opened, or dropped on the window, to go on from what it shows",
+    ),
     _number(
         SAVING,
         "Memory for undo",

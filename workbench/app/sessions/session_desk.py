@@ -13,7 +13,14 @@ from workbench.app.background import Background
 from workbench.app.document import Document
 from workbench.core.distortion import Distortion
 from workbench.core.registry import registry
-from workbench.engine.session_file import read_session, source_digest, source_trouble, write_session
+from workbench.engine.session_file import (
+    is_session_file,
+    picture_with_session,
+    read_session,
+    source_digest,
+    source_trouble,
+    write_session,
+)
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
 from workbench.session.text import LEG_CHOICES, anchors_agree
@@ -83,10 +90,7 @@ class SessionDesk(QObject):
         was_modified, self.is_modified = self.is_modified, self.is_modified if is_copy else False
 
         def work() -> str:
-            digest = self._digests.get(generation)
-            if digest is None:
-                digest = self._digests[generation] = source_digest(record.session.source)
-            write_session(path, replace(record, sha256=digest))
+            write_session(path, self._sealed(record, generation))
             return path
 
         def done(_: Any) -> None:
@@ -102,6 +106,18 @@ class SessionDesk(QObject):
             self.changed.emit()
 
         self._begin(work, done, failed)
+
+    def _sealed(self, record: SessionRecord, generation: int) -> SessionRecord:
+        """The same with the sha256 of its mesh; for threads."""
+        digest = self._digests.get(generation)
+        if digest is None:
+            digest = self._digests[generation] = source_digest(record.session.source)
+        return replace(record, sha256=digest)
+
+    def binder(self, path: str | Path) -> Callable[[bytes], bytes]:
+        """What makes of a PNG for `path` one that carries the session as it is now; for threads."""
+        record, generation = self.record(), self._document.generation
+        return lambda picture: picture_with_session(picture, path, self._sealed(record, generation))
 
     # ------------------------------------------------------------------------------------------ opening
 
@@ -127,7 +143,8 @@ class SessionDesk(QObject):
         session = replace(record.session, source=mesh) if mesh else record.session
         self._pending_path = found.path if found.keeps_path else ""
         if self.has_something:
-            self._document.changing.emit(f"Open {Path(found.path).name}" if found.keeps_path else "Recover", "")
+            is_recovered = not found.keeps_path and is_session_file(found.path)
+            self._document.changing.emit("Recover" if is_recovered else f"Open {Path(found.path).name}", "")
         self._document.restore(session, record.map)
         if not self._document.opening_source:
             self._opened()

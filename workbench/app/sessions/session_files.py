@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
 from workbench.app.reporter import source_name
 from workbench.app.sessions.session_desk import FILTERS, Found, SessionDesk
 from workbench.core.errors import WorkbenchError
-from workbench.engine.session_file import ENDING, is_session_file
+from workbench.engine.session_file import ENDING, carries_session, is_session_file
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -75,7 +75,7 @@ class SessionFiles(QObject):
     def ask_open(self) -> None:
         """Ask for a session, and go to it."""
         window = self._window
-        filters = "Sessions (*.dwb *.json);;All files (*)"
+        filters = "Sessions, and pictures that carry one (*.dwb *.json *.png);;All files (*)"
         dialog = QFileDialog(window, "Open a session", window.settings.folder, filters)
         dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
@@ -83,15 +83,15 @@ class SessionFiles(QObject):
         dialog.open()
 
     def takes(self, path: str) -> bool:
-        """Whether a file is a session by its ending."""
-        return is_session_file(path)
+        """Whether a file is a session by its ending, or a picture that carries one."""
+        return is_session_file(path) or carries_session(path)
 
     def open(self, path: str) -> None:
         """Read a session and go to it."""
         self._window.settings.folder = str(Path(path).parent)
         self._window.settings.remember_session(path)
         self._window.status.say(f"Reading {Path(path).name}…")
-        self.desk.read(path)
+        self.desk.read(path, keeps_path=is_session_file(path))
 
     def _ask_for_mesh(self, found: Found) -> None:
         """The mesh is missing or another one: the user says what to do."""

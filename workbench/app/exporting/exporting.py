@@ -1,0 +1,113 @@
+"""File > Export: a place is asked for, and one file is written beside the running window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QFileDialog, QMenu
+
+from workbench.app.background import Backgrounds
+from workbench.app.composing.composing import sentence_of
+from workbench.app.composing.figure_work import Order, save
+from workbench.app.composing.offers import offers_of, rows_of, subject_of
+from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, PICTURE_KINDS, ExportKind
+from workbench.app.exporting.session_pictures import png_of, session_binder
+from workbench.core.errors import WorkbenchError
+from workbench.engine.run_report import history_text
+from workbench.figures.recipe import Page
+from workbench.io.atomic import write_bytes, write_text
+
+if TYPE_CHECKING:
+    from workbench.app.main_window import MainWindow
+
+PAGE = Page(width=120.0, columns=1)
+"""On which a single picture stands."""
+
+
+class Exporting(QObject):
+    """One deed a kind of file; all write on threads, whole or not at all."""
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._works = Backgrounds(self)
+
+    def wait(self) -> None:
+        """Let threads end before the window does."""
+        self._works.wait()
+
+    def fill_menu(self, menu: QMenu) -> None:
+        """Meshes and tables, then pictures; what there is nothing for yet is grey."""
+        menu.clear()
+        for name in (*MAP_KINDS, "export-history", "", *PICTURE_KINDS):
+            if not name:
+                menu.addSeparator()
+                continue
+            action = self._window.actions_by_name[name]
+            action.setEnabled(self._is_possible(name))
+            menu.addAction(action)
+
+    def _is_possible(self, name: str) -> bool:
+        if name in ("export-history", "export-curve"):
+            return len(self._window.history) > 1
+        return self._window.document.snapshot is not None
+
+    def ask(self, name: str) -> None:
+        """Ask where to, with a name that tells the mesh and the kind."""
+        window, kind = self._window, KINDS[name]
+        stem = Path(window.document.session.source.replace("sample:", "")).stem
+        dialog = QFileDialog(window, _title(kind), str(Path(window.settings.folder) / (stem + kind.name)), kind.filters)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix(Path(kind.name).suffix[1:])
+        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.rpartition("*.")[2].rstrip(")")))
+        dialog.fileSelected.connect(lambda path: self.export(name, path))
+        dialog.open()
+
+    def export(self, name: str, path: str) -> None:
+        """Write this kind of file as the window shows it now."""
+        if not self._is_possible(name):
+            self._window.error_bar.show_message("There is nothing to export yet; open a mesh and run the solver first.")
+            return
+        self._window.settings.folder = str(Path(path).parent)
+        if name in MAP_KINDS:
+            self._window.commands.save_map(path)
+        elif name in PICTURE_KINDS:
+            self._draw(PICTURE_KINDS[name].panel, path)
+        else:
+            self._write_history(path)
+
+    def _write_history(self, path: str) -> None:
+        rows = rows_of(self._window.history)
+        self._start(lambda: write_text(path, history_text(rows)), path)
+
+    def _draw(self, words: str, path: str) -> None:
+        subject = subject_of(self._window)
+        offer = next((offer for offer in offers_of(self._window) if offer.words.startswith(words)), None)
+        if subject is None or offer is None:
+            return
+        order = Order(subject, PAGE, (offer.panel,))
+        bind = session_binder(self._window, path)
+        self._start(lambda: save(order, Path(path), bind), path)
+
+    def save_picture(self, image: QImage, path: str) -> None:
+        """Write a picture that was taken."""
+        bind = session_binder(self._window, path)
+        self._start(lambda: write_bytes(path, bind(png_of(image))), path)
+
+    def _start(self, work: Callable[[], Any], path: str) -> None:
+        window = self._window
+        window.status.say(f"Writing {Path(path).name}…")
+
+        def fail(error: Exception) -> None:
+            own = isinstance(error, WorkbenchError)
+            window.error_bar.show_message(sentence_of(error) if own else f"{path} could not be written: {sentence_of(error)}.")
+
+        self._works.start(work, lambda _: window.status.say(f"Saved {path}."), fail)
+
+
+def _title(kind: ExportKind) -> str:
+    return f"Export: {kind.text.replace('&', '').rstrip('…')}"
