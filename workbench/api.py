@@ -66,9 +66,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from workbench.io.opening import OpenedSource
-    from workbench.notebook import Drawing, Measured, Solution, Source, figure, load, measure, solve
+    from workbench.notebook import Drawing, Measured, References, Solution, Source, figure, load, measure, references, solve
 
-FOR_NOTEBOOKS = ("Drawing", "Measured", "Solution", "Source", "figure", "load", "measure", "solve")
+FOR_NOTEBOOKS = ("Drawing", "Measured", "References", "Solution", "Source", "figure", "load", "measure", "references", "solve")
 """Names that are found when they are first asked for: plugins do without what they need."""
 
 
@@ -149,6 +149,7 @@ __all__ = [
     "Progress",
     "ProgressiveSolver",
     "QuasiNewtonSolver",
+    "References",
     "Refined",
     "RunResult",
     "SingularMatrixError",
@@ -203,6 +204,7 @@ __all__ = [
     "open_source",
     "parameter",
     "radial_stretch",
+    "references",
     "refine",
     "relaxed_inside",
     "reweighted_laplacian",

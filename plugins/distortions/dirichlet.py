@@ -7,6 +7,6 @@ distortion = Distortion(
     label="Dirichlet energy",
     short="D",
     formula="sum(sigma^2)",
-    citation="(25); Pinkall & Polthier 1993",
+    citation="(25); Pinkall & Polthier 1993 [PP93]",
     description="Squared stretch. Convex; its minimum is 0, so a map without anchors shrinks to a point.",
 )

@@ -17,7 +17,7 @@ class RigidStart(Initializer):
 
     id = "arap-start"
     label = "As rigid as possible (local/global)"
-    citation = "LX*08: Liu, Zhang, Xu, Gotsman & Gortler 2008"
+    citation = "Liu, Zhang, Xu, Gotsman, Gortler 2008 [LX*08]"
 
     begin: Literal["auto", "lscm", "tutte", "rest", "volumetric-harmonic"] = parameter(
         "auto", "The start it begins from: for a surface lscm, or tutte; else rest, or volumetric-harmonic."

@@ -23,7 +23,7 @@ class Harmonic(Initializer):
 
     id = "harmonic"
     label = "Harmonic map (cotangent weights)"
-    citation = "FH05: Floater & Hormann 2005"
+    citation = "Floater & Hormann 2005 [FH05]"
 
     boundary: Literal["circle", "square"] = parameter("circle", "Curve for the boundary of a surface, by arc length.")
     repair: bool = parameter(True, "Make the weights positive where triangles come out inverted or collapsed.")

@@ -24,7 +24,7 @@ class LeastSquaresConformal(Initializer):
 
     id = "lscm"
     label = "Least-squares conformal map"
-    citation = "LPRM02: Levy, Petitjean, Ray & Maillot 2002"
+    citation = "Lévy, Petitjean, Ray, Maillot 2002 [LPRM02]"
     kinds = ("parameterize",)
 
     def start(self, request: StartRequest) -> Floats:

@@ -15,7 +15,7 @@ class RadialStretch(Initializer):
 
     id = "radial-stretch"
     label = "Radial stretch onto a ball"
-    citation = "NCQ*18; Figs. 1, 10"
+    citation = "Naitsat et al. 2018 [NCQ*18]; Figs. 1, 10"
     kinds = ("volume",)
 
     shape: Literal["ball", "cube"] = parameter("ball", "What the boundary goes to; it has the volume of the source in the end.")

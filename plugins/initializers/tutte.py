@@ -21,7 +21,7 @@ class Tutte(Initializer):
 
     id = "tutte"
     label = "Tutte embedding"
-    citation = "Tut63: Tutte 1963; Floater 2003"
+    citation = "Tutte 1963 [Tut63]; Floater 2003 [F03]"
     kinds = ("parameterize", "plane")
 
     boundary: Literal["circle", "square"] = parameter("circle", "Curve for the boundary, by arc length.")

@@ -26,7 +26,7 @@ class VolumetricHarmonic(Initializer):
 
     id = "volumetric-harmonic"
     label = "Volumetric harmonic map"
-    citation = "WGY*03: Wang et al. 2003; LGW*07: Li et al. 2007"
+    citation = "Wang et al. 2003 [WGY*03]; Li et al. 2007 [LGW*07]"
     kinds = ("volume",)
 
     shape: Literal["ball", "cube", "rest"] = parameter(

@@ -44,7 +44,7 @@ class Fast(ProgressiveSolver):
     id = "fast"
     label = "Fast Newton"
     short = "FN"
-    citation = "Liu, Ye, Ni, Fu 2018 [LYNF18]; Longva, Löschner, Fernández-Fernández, Larionov, Ascher, Bender 2023"
+    citation = "Liu, Ye, Ni, Fu 2018 [LYNF18]; Longva, Löschner, Fernández-Fernández, Larionov, Ascher, Bender 2023 [LLF*23]"
 
     initializer = "auto"
 

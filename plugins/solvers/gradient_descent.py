@@ -31,7 +31,7 @@ class GradientDescent(Solver):
     id = "gradient-descent"
     label = "Gradient descent"
     short = "GD"
-    citation = "Nocedal & Wright 2006, section 3.1; section 4.3"
+    citation = "Nocedal & Wright 2006 [NW06], section 3.1; section 4.3"
 
     growth: float = parameter(2.0, "factor on the last accepted step for the next first trial", minimum=1.0, maximum=100.0)
 

@@ -30,7 +30,7 @@ class LimitedMemoryBfgs(QuasiNewtonSolver):
     id = "l-bfgs"
     label = "Limited-memory BFGS"
     short = "L-BFGS"
-    citation = "Smith & Schaefer 2015 [SS15]; Liu & Nocedal 1989; section 4.3"
+    citation = "Smith & Schaefer 2015 [SS15]; Liu & Nocedal 1989 [LN89]; section 4.3"
 
     pairs: int = parameter(10, "steps that are remembered", minimum=1, maximum=50)
     begin_with: Literal["identity", "laplacian"] = parameter("identity", "metric that the remembered steps correct")

@@ -19,7 +19,7 @@ class NewtonAbsolute(NewtonSolver):
     id = "newton-absolute"
     label = "Newton with absolute eigenvalues"
     short = "AbsN"
-    citation = "Chen, Hsieh, Zhu, Wang, Levin, Jacobson 2024, Stabler neo-Hookean simulation: absolute eigenvalue filtering"
+    citation = "Chen, Liu, Levin, Zheng, Jacobson 2024 [CLL*24]: absolute eigenvalue filtering"
 
     def convex_hessian(self, problem: Problem, state: State, evaluation: Evaluation) -> Floats:
         clamped = problem.evaluate(state.positions, 2).hessian_values

@@ -29,7 +29,7 @@ class SobolevGradientDescent(LaplacianDescentSolver):
     id = "sobolev-gradient-descent"
     label = "Sobolev gradient descent"
     short = "SGD"
-    citation = "Neuberger 1985; Kovalsky, Galun, Lipman 2016 [KGL16] without acceleration; section 4.3"
+    citation = "Neuberger 1985 [N85]; Kovalsky, Galun, Lipman 2016 [KGL16] without acceleration; section 4.3"
 
     growth: float = parameter(2.0, "factor on the last accepted step for the next first trial", minimum=1.0, maximum=100.0)
     safety: float = parameter(SAFETY, "part of the largest step without inversion that is taken", minimum=0.1, maximum=0.99)

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from workbench.api import Mesh, WorkbenchError, figure, load, make_sample, measure, solve
+from workbench.api import Mesh, WorkbenchError, figure, load, make_sample, measure, references, solve
 from workbench.cli.main import main
 from workbench.core.measure import Measure
 from workbench.figures.composer import title_of
@@ -128,3 +128,12 @@ def test_presets_and_recipes_are_those_of_the_command_line(tmp_path: Path) -> No
     assert json.loads((tmp_path / "again.json").read_text()) == json.loads((tmp_path / "before-after.json").read_text())
     with pytest.raises(WorkbenchError, match="no-such-figure"):
         figure("no-such-figure")
+
+
+def test_what_was_used_is_cited(solved, tmp_path: Path, capsys) -> None:
+    found = references(solved)
+    assert all(f"{{{key}," in found for key in ("NNZ21", "SS15", "TSIF05", "LBK16", "Tut63"))
+    references(solved, "slim").save(tmp_path / "used.bib")
+    assert "{RPPSH17," in (tmp_path / "used.bib").read_text()
+    assert main(["cite", "slim", "lscm"]) == 0
+    assert capsys.readouterr().out == references("slim", "lscm")

@@ -14,6 +14,7 @@ from workbench import __version__
 from workbench.cli import (
     check,
     check_solver,
+    cite,
     compare,
     doctor,
     figure,
@@ -48,6 +49,7 @@ COMMANDS = {
     "figure": figure,
     "check": check,
     "check-solver": check_solver,
+    "cite": cite,
     "doctor": doctor,
 }
 

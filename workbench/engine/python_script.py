@@ -5,6 +5,7 @@ Whatever comes from the session stands in the script as a literal, so that no na
 
 from __future__ import annotations
 
+import keyword
 import math
 import os
 import re
@@ -138,7 +139,7 @@ class _Writer:
             parts.append(f"RECORDED = {literal(energy)}  # the energy in the session")
         if self.arrays:
             parts.append(f"arrays = np.load(HERE / {literal(place.with_suffix('.npz').name)})")
-        parts += ["", self.load(session)]
+        parts += [""] * (len(parts) > 1) + [self.load(session)]
         if sha256:
             parts.append(f"if source.opened.file.sha256 != {literal(sha256)}:")
             parts.append('    raise SystemExit("The mesh is another than when the session was saved.")')
@@ -202,7 +203,7 @@ class _Writer:
         if choices.distortion_parameters:
             distortion = f"Distortion.resolve({distortion}, {literal(choices.distortion_parameters)})"
         if choices.solver_parameters:
-            solver = f"solver({solver}, **{literal(choices.solver_parameters)})"
+            solver = f"solver({solver}, {_named_values(choices.solver_parameters)})"
         given = {"solver": solver, **start, "anchors": self.anchors(choices)}
         if choices.linear_equations:
             given["equations"] = literal(choices.linear_equations)
@@ -210,6 +211,13 @@ class _Writer:
         given |= {"allow_inversions": "True"} if choices.allow_inversions else {}
         given |= {name: literal(value) for name, value in limits.items() if value != math.inf}
         return _call("result = solve", ["source", distortion, *(f"{name}={value}" for name, value in given.items())])
+
+
+def _named_values(values: Mapping[str, Any]) -> str:
+    """Values as arguments by name, or as an unpacked literal where a name is none in Python."""
+    if all(name.isidentifier() and name.isascii() and not keyword.iskeyword(name) for name in values):
+        return ", ".join(f"{name}={literal(value)}" for name, value in values.items())
+    return f"**{literal(values)}"
 
 
 def _call(head: str, arguments: list[str]) -> str:
