@@ -42,10 +42,8 @@ class TimeLine(QObject):
         window.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.dock, Qt.Orientation.Vertical)
         self.dock.hide()
         window.docks.append(self.dock)
-        views = (window.source.view, window.target.view, *(dock.view for dock in window.maps))
         self.filming: Filming | None = None
         self.comparing: Comparing | None = None
-        self.badges = {view: PastBadge(view) for view in views}
         self._connect()
 
     def _connect(self) -> None:
