@@ -10,8 +10,9 @@ from scipy.spatial import cKDTree
 from workbench.core.arrays import Floats, Integers
 
 TOLERANCE = 0.75
-"""How far from a mirror image its vertex may be, of the mean distance between neighbours there."""
-NEIGHBOURS = 5
+"""How far from a mirror image its vertex may be, of the distance of its own neighbours from it."""
+NEIGHBOURS = 3
+"""Itself among them: at a corner those farther off would say little about the mesh there."""
 
 
 @dataclass(frozen=True, eq=False)
