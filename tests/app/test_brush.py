@@ -16,9 +16,9 @@ from workbench.app.quantities import Quantity
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import BRUSH
 from workbench.app.views.brush_mark import BrushedParts
-from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.mesh import Mesh
+from workbench.core.solid_look.drawn_faces import drawn_faces
 from workbench.engine.messages import Watch
 
 DETERMINANT = Quantity("det", "Determinant", "", "det J", 0.0)

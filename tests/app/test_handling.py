@@ -17,7 +17,7 @@ from workbench.app.handling.rigid_motion import RigidMotion
 from workbench.app.handling.turning import Turning, snapped
 from workbench.app.handling.visible_points import visible_points
 from workbench.app.views.camera import ViewCamera
-from workbench.app.views.drawn_faces import drawn_faces
+from workbench.core.solid_look.drawn_faces import drawn_faces
 
 SIZE = (800, 600)
 

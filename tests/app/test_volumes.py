@@ -14,10 +14,10 @@ from scipy.spatial import ConvexHull
 from tests.app.conftest import Hand, pixel_of, pixels_of
 from tests.app.fake_engine import solid_mesh
 from workbench.app.main_window import MainWindow
-from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces, faces_between
-from workbench.app.volumes.look import VolumeLook
-from workbench.app.volumes.solid import Solid
 from workbench.core.facets import facet_table, neighbouring_simplices
+from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces, faces_between
+from workbench.core.solid_look.look import VolumeLook
+from workbench.core.solid_look.solid import Solid
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -179,7 +179,7 @@ def test_tetrahedra_pulled_apart_keep_their_shape_and_place() -> None:
 
 
 def test_of_many_tetrahedra_pulled_apart_the_outer_ones_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("workbench.app.volumes.solid.MOST_SPREAD", 100)
+    monkeypatch.setattr("workbench.core.solid_look.solid.MOST_SPREAD", 100)
     solid = Solid(solid_mesh((8, 8, 8)))
     drawn = np.unique(solid.faces(VolumeLook(spread=0.5)).simplices)
     assert set(solid.boundary.simplices.tolist()) < set(drawn.tolist())

@@ -16,12 +16,12 @@ from workbench.app.panel_turns import SOON, PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.brush_mark import BrushedParts
-from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import DisplayFrame, Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.volume_view import VolumeView
 from workbench.core.arrays import Floats
+from workbench.core.solid_look.drawn_faces import DrawnFaces
 
 EMPTY = "Open a mesh with Ctrl+O, choose a sample in the File menu, or drop a file here."
 MARKS_WAIT = 35

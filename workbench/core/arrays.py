@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Booleans = NDArray[np.bool_]
+Points = NDArray[np.floating[Any]]
+"""Places of what is drawn, of single or double precision."""
 
 
 def frozen(values: ArrayLike, dtype: type = np.float64) -> NDArray[Any]:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from workbench.core.arrays import Floats, Integers
+from workbench.core.arrays import Floats, Integers, Points
 from workbench.core.even_sample import even_sample
 from workbench.core.mesh import Mesh
 from workbench.core.principal_stretches import PrincipalStretches, StretchProbe
 
-Points = NDArray[np.floating[Any]]
 FILLED = 0.42
 """Radius of a circle in the source, as a part of the distance between two."""
 NO_STRETCH = 1e-3

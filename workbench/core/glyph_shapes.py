@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from workbench.core.arrays import Floats, Integers
+from workbench.core.arrays import Floats, Integers, Points
 
-Points = NDArray[np.floating[Any]]
-"""Of single or double precision; shapes have that of their axes."""
 CORNERS = 28
 """Of the polygon that stands for an ellipse."""
 ROUNDS = 2

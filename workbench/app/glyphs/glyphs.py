@@ -11,12 +11,12 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.background import Background
 from workbench.app.texturing.texturing import number_within
-from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.glyph_layer import GlyphLayer
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.glyph_places import GlyphPlaces
 from workbench.core.mesh import Mesh
+from workbench.core.solid_look.drawn_faces import DrawnFaces
 from workbench.engine.stretch_kernels import compile_stretches
 
 if TYPE_CHECKING:

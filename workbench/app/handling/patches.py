@@ -7,12 +7,12 @@ from functools import cached_property
 import numpy as np
 
 from workbench.app.views.camera import Pixel
-from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.picking import segment_distances
 from workbench.core.arrays import Integers
 from workbench.core.boundary_sides import boundary_edges, boundary_sides
 from workbench.core.mesh import Mesh
+from workbench.core.solid_look.drawn_faces import drawn_faces
 from workbench.core.surface_patch import surface_patches
 
 REACH = 40.0

@@ -14,11 +14,11 @@ from workbench.app.race.race_model import RaceModel
 from workbench.app.race.view_turns import ViewTurns
 from workbench.app.theme import Theme
 from workbench.app.views.camera import axes_for_solid
-from workbench.app.views.drawn_faces import drawn_faces
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView, box_corners
 from workbench.core.arrays import Floats
+from workbench.core.solid_look.drawn_faces import drawn_faces
 
 GAP = 3
 HEADER_LINES = 2.8

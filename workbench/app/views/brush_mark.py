@@ -12,9 +12,9 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from workbench.app.theme import BRUSH, BRUSH_CASING
 from workbench.app.views.actors import THROUGH, cells, line_actor, surface_actor
-from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers
+from workbench.core.solid_look.drawn_faces import DrawnFaces
 
 TINT = 0.3
 """Opacity of the tint: what lies below it, the yellow of inverted triangles too, is still told apart."""

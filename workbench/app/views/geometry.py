@@ -10,8 +10,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray
 
-from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
 from workbench.core.arrays import Floats, Integers
+from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,12 +16,12 @@ from workbench.app.views.actors import THROUGH, actor_of, cells, mapper_of, surf
 from workbench.app.views.brush_mark import BrushedPart, BrushMark
 from workbench.app.views.canvas import draws_with_card
 from workbench.app.views.colours import single_colour, table_of
-from workbench.app.views.drawn_faces import DrawnFaces
 from workbench.app.views.feature_lines import FeatureLines
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.ghost import Ghost
 from workbench.app.views.textures import Texture, repeating
 from workbench.core.arrays import Booleans, Integers
+from workbench.core.solid_look.drawn_faces import DrawnFaces
 
 MAP_SCALARS = 1
 """VTK_COLOR_MODE_MAP_SCALARS, which Python does not name."""

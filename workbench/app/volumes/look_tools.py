@@ -11,10 +11,10 @@ from workbench.app.quantity_book import QuantityBook
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.linked_views import LinkedViews
-from workbench.app.volumes.look import AXES, Direction
 from workbench.app.volumes.plane_handle import PlaneHandle
 from workbench.app.volumes.tools import CutTools, PeelTools
 from workbench.app.volumes.volume_view import VolumeView
+from workbench.core.solid_look.look import AXES, Direction
 
 
 class LookTools:

@@ -14,9 +14,9 @@ from workbench.app.document import Document
 from workbench.app.quantities import IN_FORCE
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces
-from workbench.app.volumes.look import VolumeLook
-from workbench.app.volumes.solid import Solid
+from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces
+from workbench.core.solid_look.look import VolumeLook
+from workbench.core.solid_look.solid import Solid
 
 OWNER = "peel"
 """Name under which the quantity to peel by is watched."""

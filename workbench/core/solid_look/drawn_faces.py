@@ -7,8 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from workbench.app.views.camera import Points
-from workbench.core.arrays import Booleans, Integers
+from workbench.core.arrays import Booleans, Integers, Points
 from workbench.core.facets import facet_table, neighbouring_simplices
 
 SIDES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]], dtype=np.int64)

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.app.views.camera import Points
-from workbench.app.views.drawn_faces import DrawnFaces, faces_between
-from workbench.core.arrays import Booleans, Floats, Integers
+from workbench.core.arrays import Booleans, Floats, Integers, Points
+from workbench.core.solid_look.drawn_faces import DrawnFaces, faces_between
 
 
 @dataclass(frozen=True, eq=False)

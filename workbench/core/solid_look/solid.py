@@ -7,13 +7,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.app.views.drawn_faces import DrawnFaces, drawn_faces, faces_between
-from workbench.app.volumes.look import VolumeLook
-from workbench.app.volumes.section import cut_faces
-from workbench.app.volumes.spread import spread_faces
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.facets import facet_table, neighbouring_simplices
 from workbench.core.mesh import Mesh
+from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces, faces_between
+from workbench.core.solid_look.look import VolumeLook
+from workbench.core.solid_look.section import cut_faces
+from workbench.core.solid_look.spread import spread_faces
 
 MOST_SPREAD = 20_000
 """Tetrahedra up to which all are drawn when they are pulled apart."""

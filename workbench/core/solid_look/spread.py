@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.app.views.camera import Points
-from workbench.app.views.drawn_faces import SIDES, DrawnFaces
-from workbench.core.arrays import Booleans, Integers
+from workbench.core.arrays import Booleans, Integers, Points
+from workbench.core.solid_look.drawn_faces import SIDES, DrawnFaces
 
 
 @dataclass(frozen=True, eq=False)
