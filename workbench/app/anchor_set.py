@@ -152,6 +152,11 @@ class AnchorSet:
         return frozen(np.array([self.weights.get(v, math.inf) for v in self.targets], dtype=np.float64))
 
     @cached_property
+    def is_soft(self) -> Booleans:
+        """(k,) which have a weight"""
+        return np.isfinite(self.weight_array)
+
+    @cached_property
     def is_off(self) -> Booleans:
         """(k,) which are switched off"""
         return np.array([v in self.off for v in self.targets], dtype=bool)

@@ -335,7 +335,7 @@ class Presenter(QObject):
             scene.anchor_vertices = anchors.vertices
             scene.vertex_points = geometry.points[anchors.vertices]
             scene.selected, scene.grouped = document.selected_anchors, frozenset(anchors.groups)
-            scene.soft, scene.off = frozenset(anchors.weights), anchors.off
+            scene.soft, scene.off = anchors.is_soft, anchors.is_off
             if view in targets:
                 places = scene.anchor_points = geometry.frame.to_display(anchors.target_array(positions.shape[1]))
                 scene.gizmo = gizmo_of(places[scene.is_selected], is_flat=geometry.is_flat)

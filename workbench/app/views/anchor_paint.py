@@ -18,6 +18,8 @@ MANY = 40
 BEHIND = 0.35
 """Opacity of anchors that the solid hides."""
 HOLLOW = QColor(0, 0, 0, 0)
+MOST_LINES = 3000
+"""Lines that are drawn; of more, some are left out evenly."""
 APART = 2.0
 """Pixels between a vertex and its target from which on a line joins them."""
 
@@ -63,4 +65,5 @@ def _paint_lines(
     for chosen, pen in ((is_apart & ~is_soft, lagging), (is_apart & is_soft, QPen(ANCHOR, 1.6))):
         if chosen.any():
             painter.setPen(pen)
-            painter.drawLines([QLineF(*ends) for ends in np.hstack([vertices, discs])[chosen].tolist()])
+            ends = np.hstack([vertices, discs])[chosen]
+            painter.drawLines([QLineF(*line) for line in ends[:: -(-len(ends) // MOST_LINES)].tolist()])

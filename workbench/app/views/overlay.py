@@ -47,7 +47,7 @@ class OverlayScene:
 
     `anchor_vertices` (k,), `anchor_points` (k, 3) where the discs stand, `vertex_points` (k, 3) where their
     vertices are now: a line joins the two where the map lags behind. `selected` and `grouped` are vertices of anchors that
-    are selected, and that move with others; `soft` and `off` of those that are soft, and that hold nothing. `hot_handle` is
+    are selected, and that move with others; `soft` and `off` (k,) tell which are soft, and hold nothing. `hot_handle` is
     the kind and axis of the handle of the `gizmo` that is meant; `guide` (2, 3) the line along which anchors are pulled,
     `hold_words` what to say about that at the pixel `hold_at`; `outline` what is drawn round anchors, in pixels; `hint`
     lines at the lower edge, what keys and buttons would do now; `sketches` what tools draw, by name.
@@ -58,8 +58,8 @@ class OverlayScene:
     vertex_points: Points = field(default_factory=_no_points)
     selected: Integers = field(default_factory=lambda: np.empty(0, np.int64))
     grouped: frozenset[int] = frozenset()
-    soft: frozenset[int] = frozenset()
-    off: frozenset[int] = frozenset()
+    soft: Booleans = field(default_factory=lambda: np.empty(0, bool))
+    off: Booleans = field(default_factory=lambda: np.empty(0, bool))
     gizmo: Gizmo | None = None
     hot_handle: tuple[str, int] | None = None
     guide: Points | None = None
@@ -78,9 +78,9 @@ class OverlayScene:
         """(k,) which of the anchors are."""
         return np.isin(self.anchor_vertices, self.selected)
 
-    def among(self, vertices: frozenset[int]) -> Booleans:
-        """(k,) which of the anchors are among `vertices`."""
-        return np.isin(self.anchor_vertices, np.fromiter(vertices, np.int64, len(vertices)))
+    def told(self, which: Booleans) -> Booleans:
+        """(k,) `which` of the anchors; none where that was told of other ones, or never."""
+        return which if len(which) == len(self.anchor_vertices) else np.zeros(len(self.anchor_vertices), bool)
 
     def is_grouped(self, vertex: int) -> bool:
         return vertex in self.grouped
@@ -188,8 +188,8 @@ class Overlay(QWidget):
             self._view.project(scene.anchor_points),
             self._view.project(scene.vertex_points),
             is_selected=scene.is_selected,
-            is_soft=scene.among(scene.soft),
-            is_off=scene.among(scene.off),
+            is_soft=scene.told(scene.soft),
+            is_off=scene.told(scene.off),
             is_behind=self._behind(scene.anchor_vertices),
             theme=self.theme,
         )

@@ -4,19 +4,61 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Booleans, Floats
 
+MANY = 1500
+"""Discs from which on all of them are drawn at once, without smooth rims."""
 
 def stamp_discs(painter: QPainter, centres: Floats, colour: QColor, rim: QPen, radius: float) -> None:
     """Discs with a rim about centres (k, 2) in pixels, each at the nearest pixel of the screen."""
     ratio = painter.device().devicePixelRatioF()
+    if len(centres) > MANY:
+        _stamp_many(painter, centres, colour, rim, radius)
+        return
     image = _stamp(colour.rgba(), rim.color().rgba(), rim.widthF(), radius, ratio)
     reach = 0.5 * image.width() / ratio
     for x, y in (((centres - reach) * ratio).round() / ratio).tolist():
         painter.drawImage(QPointF(x, y), image)
+
+
+def _stamp_many(painter: QPainter, centres: Floats, colour: QColor, rim: QPen, radius: float) -> None:
+    """The same by a picture of the whole device, whose cost does not grow with the number of discs."""
+    device = painter.device()
+    ratio = device.devicePixelRatioF()
+    height, width = round(device.height() * ratio), round(device.width() * ratio)
+    pixels = np.rint(centres * ratio).astype(np.int64)
+    seen = ((pixels >= 0) & (pixels < (width, height))).all(axis=1)
+    marks = np.zeros((height, width), dtype=bool)
+    marks[pixels[seen, 1], pixels[seen, 0]] = True
+    outer = _grown(marks, (radius + 0.5 * rim.widthF()) * ratio)
+    inner = _grown(marks, (radius - 0.5 * rim.widthF()) * ratio)
+    found = np.zeros((height, width), dtype=np.uint32)
+    found[outer] = rim.color().rgba()
+    found[inner] = colour.rgba() if colour.alpha() else 0
+    image = QImage(found.data, width, height, 4 * width, QImage.Format.Format_ARGB32_Premultiplied)
+    image.setDevicePixelRatio(ratio)
+    painter.drawImage(QPointF(0.0, 0.0), image)
+
+
+def _grown(marks: Booleans, radius: float) -> Booleans:
+    """Every pixel within a radius of a marked one: rows are widened for each distance between rows."""
+    found = np.zeros_like(marks)
+    reach = int(radius)
+    for down in range(-reach, reach + 1):
+        half = int((radius**2 - down**2) ** 0.5)
+        wide = marks.copy()
+        for side in range(1, half + 1):
+            wide[:, side:] |= marks[:, :-side]
+            wide[:, :-side] |= marks[:, side:]
+        if down >= 0:
+            found[down:] |= wide[: len(marks) - down]
+        else:
+            found[:down] |= wide[-down:]
+    return found
 
 
 @lru_cache(maxsize=16)
