@@ -14,6 +14,7 @@ from pathlib import Path
 from workbench import __version__
 from workbench.core.registry import load_registry, resource_folder, user_plugin_folder
 from workbench.core.threads import thread_count
+from workbench.engine.log_file import log_path
 from workbench.engine.system_libraries import install_command, missing_libraries
 
 DISTRIBUTION = "distortion-workbench"
@@ -60,6 +61,7 @@ def program() -> Section:
             Finding("system", f"{platform.platform()}, {os.cpu_count()} processors"),
             _threads(),
             _kernel_cache(),
+            Finding("log of the window", str(log_path())),
         ),
     )
 

@@ -57,3 +57,22 @@ def cut_into_chapters(text: str) -> tuple[Chapter, ...]:
         lines.append(line)
     end()
     return tuple(chapters)
+
+
+def with_fences(text: str) -> str:
+    """The same Markdown with indented code between fences: such blocks are known as code wherever they are drawn."""
+    lines: list[str] = []
+    is_code, blank = False, 0
+    for line in text.splitlines():
+        if not line.strip():
+            blank += 1
+            continue
+        begins = line.startswith("    ") and (is_code or blank > 0)
+        if is_code and not begins:
+            lines.append("```")
+        lines += [""] * blank
+        if begins and not is_code:
+            lines.append("```")
+        lines.append(line[4:] if begins else line)
+        is_code, blank = begins, 0
+    return "\n".join([*lines, "```"] if is_code else lines) + "\n"

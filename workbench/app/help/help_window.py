@@ -34,7 +34,7 @@ class HelpWindow(QDialog):
         self.setObjectName("help")
         self.setWindowTitle("Help")
         self.setWindowFlag(Qt.WindowType.Window)  # with buttons to enlarge it
-        self.resize(1000, 720)
+        self.resize(1120, 760)
         folder = folder or readme_folder()
         self.chapters: tuple[Chapter, ...] = read_chapters(folder)
         self._past: list[int] = []

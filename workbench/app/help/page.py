@@ -18,10 +18,11 @@ from PySide6.QtGui import (
     QTextCursor,
     QTextDocument,
     QTextFormat,
+    QTextTable,
 )
 from PySide6.QtWidgets import QTextBrowser, QTextEdit, QWidget
 
-from workbench.app.help.chapters import Chapter
+from workbench.app.help.chapters import Chapter, with_fences
 from workbench.app.theme import Theme
 
 WIDEST_PICTURE = 900
@@ -95,8 +96,9 @@ class HelpPage(QTextBrowser):
             return
         place = self.verticalScrollBar().value()
         self.document().clear()
-        self.setMarkdown(self._chapter.text)
+        self.setMarkdown(with_fences(self._chapter.text))
         self._dress()
+        self._rule_tables()
         self._mark()
         self.verticalScrollBar().setValue(place)
 
@@ -118,13 +120,27 @@ class HelpPage(QTextBrowser):
                 cursor.mergeCharFormat(characters)
             elif is_code(block):
                 form.setBackground(ground)
+                form.setNonBreakableLines(True)
                 form.setLeftMargin(14.0)
                 form.setTopMargin(0.0)
                 form.setBottomMargin(0.0)
                 characters.setFontFamilies([fixed])
+                characters.setProperty(QTextFormat.Property.FontSizeAdjustment, -1)
                 cursor.mergeCharFormat(characters)
             cursor.mergeBlockFormat(form)
             block = block.next()
+
+    def _rule_tables(self) -> None:
+        """Lines of tables in the colour of all lines, and no empty head."""
+        for frame in self.document().rootFrame().childFrames():
+            if isinstance(frame, QTextTable):
+                if not any(frame.cellAt(0, column).firstCursorPosition().block().text() for column in range(frame.columns())):
+                    frame.removeRows(0, 1)
+                form = frame.format()
+                form.setBorderBrush(QColor(self._theme.border))
+                form.setBorderCollapse(True)
+                form.setCellPadding(5.0)
+                frame.setFormat(form)
 
     def _mark(self) -> None:
         """Every place of every word that is looked for."""
