@@ -30,8 +30,8 @@ TEXTS: dict[str, ActionText] = {
     "open-session": ActionText("Open s&ession…", ("Ctrl+Shift+O",), "Open a session: mesh, choices, anchors and map"),
     "save-session": ActionText("Save sess&ion", ("Ctrl+Alt+S",), "Save mesh, choices, anchors and map as they are now"),
     "save-session-as": ActionText("Save session &as…", (), "Save the session to another file"),
-    "undo": ActionText("Undo", ("Ctrl+Z",)),
-    "redo": ActionText("Redo", ("Ctrl+Shift+Z",)),
+    "undo": ActionText("Undo", ("Ctrl+Z",), "Take the last step back"),
+    "redo": ActionText("Redo", ("Ctrl+Shift+Z",), "Do the step again that was taken back last"),
     "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
     "figure": ActionText("Fi&gure…", ("Ctrl+E",), "Compose a figure fit to print of what the window shows"),
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",), "Save a picture of the whole window"),
@@ -51,8 +51,6 @@ TEXTS: dict[str, ActionText] = {
     "move": ActionText("&Move anchors", ("G",), "The selected anchors follow the pointer; X, Y, Z: axis, or type numbers (G)"),
     "turn": ActionText("&Turn anchors", ("R",), "Turn the selected anchors; X, Y, Z: axis, or type degrees (R)"),
     "scale": ActionText("&Scale anchors", ("S",), "Scale the selected anchors; X, Y, Z: axis, or type a factor (S)"),
-    "remove": ActionText("&Remove selected anchors", ("Del", "Backspace")),
-    "import-anchors": ActionText("I&mport anchors…", (), "Read anchors from a CSV file, or from one of a spreadsheet"),
     "mirror": ActionText("&Mirror", ("M",), "Mirror twins of anchors move likewise (M)", "mirror", checkable=True),
     "mirror-x": ActionText("&x to -x", (), "The plane across x through the middle of the source", checkable=True),
     "mirror-y": ActionText("&y to -y", (), "The plane across y through the middle of the source", checkable=True),
@@ -60,6 +58,8 @@ TEXTS: dict[str, ActionText] = {
     "mirror-found": ActionText("As &found", (), "The plane about which the source is most symmetric", checkable=True),
     "falloff": ActionText("&Falloff", ("O",), "Anchors near by follow; the wheel: how far (O)", "falloff", checkable=True),
     "falloff-edges": ActionText("Fallo&ff along edges", (), "Distances on the mesh; or else straight ones", checkable=True),
+    "remove": ActionText("&Remove selected anchors", ("Del", "Backspace"), "Let the selected anchors go"),
+    "import-anchors": ActionText("I&mport anchors…", (), "Read anchors from a CSV file, or from one of a spreadsheet"),
     "export-anchors": ActionText("E&xport anchors…", (), "Write vertices, targets, weights and groups as a CSV file"),
     "clear": ActionText("&Clear anchors", ("Ctrl+Shift+A",), "Remove all anchors", "clear"),
     "equations": ActionText("&Linear equations…", ("Ctrl+L",), "Bind coordinates of the map, by equations typed or in a file"),
@@ -111,9 +111,9 @@ TEXTS: dict[str, ActionText] = {
     "film": ActionText("&Film…", (), "Make a GIF or an MP4 of the time line"),
     "help": ActionText("&Help", ("F1",), "The README, at the chapter about what is in use (F1)"),
     "log": ActionText("&Log", (), "All that was told, with times and details"),
-    "shortcuts": ActionText("&Mouse and keys", (), "Everything that mouse and keys do"),
-    "report": ActionText("&Report on the mesh"),
-    "about": ActionText("&About"),
+    "shortcuts": ActionText("&Keys and mouse…", ("Ctrl+F1",), "Every key and gesture, to be searched, copied and printed"),
+    "report": ActionText("&Report on the mesh", (), "What was found in the file, and what was done to it"),
+    "about": ActionText("&About", (), "What this program is, and which survey it follows"),
 }
 
 
@@ -126,9 +126,8 @@ def make_actions(parent: QObject, theme: Theme) -> dict[str, QAction]:
         action.setShortcuts([QKeySequence(key) for key in text.keys])
         action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
         action.setCheckable(text.checkable)
-        if text.tip:
-            action.setToolTip(text.tip)
-            action.setStatusTip("")
+        action.setToolTip(text.tip)
+        action.setStatusTip(text.tip)
         actions[name] = action
     set_icons(actions, theme)
     return actions

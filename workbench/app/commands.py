@@ -16,7 +16,7 @@ from workbench.app.composing.composing import Composing
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.exporting.exporting import Exporting
 from workbench.app.filling.filling import Filling
-from workbench.app.help_texts import ABOUT, SHORTCUTS
+from workbench.app.help_texts import ABOUT
 from workbench.app.palette.commanding import Commanding
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
@@ -97,7 +97,7 @@ class Commands(QObject):
             "less-bad": lambda: self.ranked.walk(-1),
             "preferences": lambda: window.preferring.ask(),
             "palette": self.commanding.ask,
-            "shortcuts": lambda: self._tell("Mouse and keys", SHORTCUTS),
+            "shortcuts": self.show_keys,
             "help": window.help.show,
             "log": window.noticing.show,
             "report": self.show_report,
@@ -280,6 +280,13 @@ class Commands(QObject):
         self._window.preferring.choose("theme", choice)
 
     # ------------------------------------------------------------------------------------------ help
+
+    def show_keys(self) -> None:
+        """The sheet of all keys and gestures."""
+        from workbench.app.shortcuts.sheet import sheet_of
+        from workbench.app.shortcuts.sheet_window import SheetWindow
+
+        SheetWindow(sheet_of(self._window), self._window.settings.folder, self._window).show()
 
     def show_report(self) -> None:
         loaded = self._document.loaded

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
 from workbench.app.first_anchors import SAMPLE
 from workbench.app.glyphs.glyph_menu import GlyphMenu
+from workbench.app.mnemonics import settle_menus
 from workbench.app.reporter import source_name
 from workbench.core.samples import sample_label
 
@@ -94,6 +95,7 @@ def fill_menus(window: MainWindow) -> None:
     help_menu = bar.addMenu("&Help")
     for name in ("help", "shortcuts", "log", "report", "about"):
         help_menu.addAction(actions[name])
+    settle_menus(bar)
 
 
 def fill_carried(window: MainWindow, menu: QMenu) -> None:
