@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QCloseEvent, QKeyEvent
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from workbench.app.colour_legend import ColourLegend
@@ -141,12 +141,9 @@ class CompareWindow(QDialog):
         begins, ends = (geometry.frame.to_display(positions) for positions in comparison.maps)
         self.arrows.show_arrows(begins, ends - begins)
 
-    def closeEvent(self, event: QCloseEvent) -> None:
+    def done(self, result: int) -> None:
         self.close_view()
-        super().closeEvent(event)
-
-    def reject(self) -> None:
-        self.close()
+        super().done(result)
 
     def close_view(self) -> None:
         """Give the graphics memory back."""

@@ -145,7 +145,7 @@ class TimeLine(QObject):
             flipped = int(np.count_nonzero(measurer.singular_values(moment).inverted))
             if flipped:
                 self._window.error_bar.show_message(
-                    f"This map was kept in single precision only, in which {flipped} simplices are inverted; "
+                    f"This map was kept in single precision only, in which {flipped} of its simplices invert; "
                     "go on from a moment beside it, or from one with a note."
                 )
                 return
