@@ -126,9 +126,9 @@ class AnchorSet:
 
     def together_with(self, vertices: Iterable[int]) -> Integers:
         """(k,) int64: anchors among `vertices` and all that move with them, in the order in which they were set."""
-        chosen = {v for v in vertices if v in self.targets}
-        numbers = {self.groups[v] for v in chosen if v in self.groups}
-        return np.array([v for v in self.targets if v in chosen or self.groups.get(v) in numbers], dtype=np.int64)
+        is_chosen = np.isin(self.vertices, np.array(list(vertices), dtype=np.int64))
+        numbers = self.group_numbers[is_chosen]
+        return self.vertices[is_chosen | np.isin(self.group_numbers, numbers[numbers >= 0])]
 
     # ------------------------------------------------------------------------------------------ arrays
 

@@ -113,7 +113,9 @@ def parse_rows(
                 raise WorkbenchError(f"{place(line, name)}: {error.sentence}") from None
         return found
 
-    vertices = [int(vertex) for vertex in column("vertex", lambda cell: vertex_of(cell, vertex_count))]
+    vertices = _ordinary_vertices(cells["vertex"], vertex_count)
+    if vertices is None:
+        vertices = [int(vertex) for vertex in column("vertex", lambda cell: vertex_of(cell, vertex_count))]
     _refuse_twins(vertices, lines, place)
     count = len(rows)
     ordinary = [_ordinary(cells[axis], decimal_comma) for axis in AXES[:dimension]]
@@ -128,6 +130,14 @@ def parse_rows(
         np.array(column("group", group_of), dtype=np.int64) if "group" in cells else None,  # type: ignore[arg-type]
         np.array(column("on", switch_of)) == 0.0 if "on" in cells else None,  # type: ignore[arg-type]
     )
+
+
+def _ordinary_vertices(cells: list[str], vertex_count: int) -> list[int] | None:
+    """Vertices all at once; None where one of them is not in order, and has to be found."""
+    if not all(map(str.isdecimal, cells)) or max(map(len, cells), default=0) > 18:
+        return None
+    vertices = list(map(int, cells))
+    return vertices if max(vertices, default=0) < vertex_count else None
 
 
 def _ordinary(cells: list[str], decimal_comma: bool) -> Floats | None:
