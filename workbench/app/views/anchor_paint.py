@@ -54,9 +54,7 @@ def paint_anchors(
     painter.setOpacity(1.0)
 
 
-def _paint_lines(
-    painter: QPainter, discs: Floats, vertices: Floats, is_soft: Booleans, is_off: Booleans, theme: Theme
-) -> None:
+def _paint_lines(painter: QPainter, discs: Floats, vertices: Floats, is_soft: Booleans, is_off: Booleans, theme: Theme) -> None:
     """Dashed ones where the map lags behind a hard anchor; solid ones for what a soft one has left to pull."""
     is_apart = (np.abs(discs - vertices).max(axis=1) > APART) & ~is_off
     lagging = QPen(QColor(theme.text), 1.2, Qt.PenStyle.DashLine)

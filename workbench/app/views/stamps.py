@@ -13,6 +13,7 @@ from workbench.core.arrays import Booleans, Floats
 MANY = 1500
 """Discs from which on all of them are drawn at once, without smooth rims."""
 
+
 def stamp_discs(painter: QPainter, centres: Floats, colour: QColor, rim: QPen, radius: float) -> None:
     """Discs with a rim about centres (k, 2) in pixels, each at the nearest pixel of the screen."""
     ratio = painter.device().devicePixelRatioF()
