@@ -61,6 +61,8 @@ class AnchorTable(QTableView):
         heads.setSortIndicator(-1, Qt.SortOrder.AscendingOrder)
         heads.setSortIndicatorClearable(True)
         self.setSortingEnabled(True)
+        for header in (rows, heads):  # they would ask every cell of a column whether it can be selected, each time
+            header.setSelectionModel(QItemSelectionModel(model, header))
         self.selectionModel().selectionChanged.connect(self._selection_changed)
 
     def fit_columns(self) -> None:
