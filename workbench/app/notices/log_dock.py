@@ -46,7 +46,7 @@ class _Filter(QSortFilterProxyModel):
 
     def choose(self, least: int, words: str) -> None:
         self.least, self.words = least, words.casefold()
-        self.invalidateFilter()
+        self.invalidate()
 
     def filterAcceptsRow(self, row: int, parent: object) -> bool:
         notices = self.sourceModel().notices  # type: ignore[attr-defined]
