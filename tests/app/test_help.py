@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator
+from email.message import Message
+from fnmatch import fnmatch
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -60,7 +63,11 @@ def test_a_sign_in_code_is_no_heading() -> None:
     assert with_fences("1. a list\n    goes on\n") == "1. a list\n    goes on\n"
 
 
-def test_without_a_readme_it_says_so(tmp_path: Path) -> None:
+def test_without_the_file_it_is_that_of_the_metadata(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = metadata.metadata("distortion-workbench")
+    titles = {chapter.title for chapter in read_chapters(tmp_path)}
+    assert {"Start", "The first minute"} <= titles or not found.get_payload()
+    monkeypatch.setattr(metadata, "metadata", lambda name: Message())
     assert "missing" in read_chapters(tmp_path)[0].text
 
 
@@ -129,7 +136,9 @@ def test_f1_opens_the_chapter_of_what_is_in_use(window: MainWindow, qtbot: QtBot
 
 
 def test_the_wheel_takes_the_readme_and_its_pictures_along(project_root: Path) -> None:
-    wheel = tomllib.loads((project_root / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["hatch"]["build"]["targets"]
-    wheel = wheel["wheel"]
-    assert "README.md" in wheel["only-include"] and wheel["sources"]["README.md"] == "workbench/README.md"
-    assert not wheel.get("exclude")
+    project = tomllib.loads((project_root / "pyproject.toml").read_text(encoding="utf-8"))
+    wheel = project["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert project["project"]["readme"] == "README.md", "then it is the description in the metadata"
+    assert wheel["sources"]["assets"] == "workbench/assets"
+    pictures = {p.relative_to(project_root).as_posix() for p in (project_root / "assets").rglob("*.png")}
+    assert pictures and not any(fnmatch(name, pattern) for name in pictures for pattern in wheel["exclude"])

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from importlib import metadata
 from pathlib import Path
 
 from workbench.core.registry import resource_folder
+from workbench.engine.doctor import DISTRIBUTION
 
 HEADING = re.compile(r"(#{1,3}) (.+)")
 NO_README = "# Distortion Workbench\n\nThe README is missing from this installation; install it anew to have it here.\n"
@@ -27,17 +29,28 @@ class Chapter:
 
 
 def readme_folder() -> Path:
-    """Where the README and its pictures are: inside the installed package, or at the root of a checkout."""
+    """Where the README's pictures are: inside the installed package, or, with itself, at the root of a checkout."""
     return resource_folder("assets").parent
 
 
 def read_chapters(folder: Path | None = None) -> tuple[Chapter, ...]:
-    """Chapters of the README in `folder`, in their order; one that says so where it cannot be read."""
+    """Chapters of the README in their order; one that says so where there is none.
+
+    It stands in `folder`, or else in the metadata of the installed package, which hold it as their description.
+    """
     try:
         text = ((folder or readme_folder()) / "README.md").read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
-        text = NO_README
-    return cut_into_chapters(text)
+        text = _description()
+    return cut_into_chapters(text) or cut_into_chapters(NO_README)
+
+
+def _description() -> str:
+    try:
+        found = metadata.metadata(DISTRIBUTION)
+    except metadata.PackageNotFoundError:
+        return ""
+    return str(found.get_payload()) or found.get("Description", "")  # type: ignore[attr-defined]
 
 
 def cut_into_chapters(text: str) -> tuple[Chapter, ...]:
