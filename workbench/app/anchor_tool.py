@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QCursor, QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QWheelEvent
 
 from workbench.app.handling.area_drawing import AreaDrawing
 from workbench.app.handling.hold_keys import HoldKeys
@@ -65,7 +65,7 @@ class AnchorTool(NavigationTool):
         super().__init__(view)
         self.is_target = is_target
         self._may_anchor = may_anchor
-        self._pressed_at = self._where = QPointF()
+        self._pressed_at = self._where = self._pointer = QPointF()
         self._pressed_vertex = self._clicked_anchor = -1
         self._hold: Hold | None = None
         self._was_moved = False
@@ -168,6 +168,7 @@ class AnchorTool(NavigationTool):
     # ------------------------------------------------------------------------------------------ move
 
     def move(self, event: QMouseEvent) -> None:
+        self._pointer = event.position()
         if self._hold is not None:
             is_free = isinstance(self._hold, KeyHold)
             if not is_free and not self._was_moved and _distance(event.position(), self._pressed_at) < 2.0:
@@ -320,8 +321,7 @@ class AnchorTool(NavigationTool):
         if self.is_dragging or not len(scene.selected) or not self._may_anchor() or self.view.geometry_shown is None:
             return False
         self.area.end()
-        pointer = QPointF(overlay.mapFromGlobal(QCursor.pos()))
-        self._pressed_at = self._where = pointer
+        pointer = self._pressed_at = self._where = self._pointer
         centre = scene.anchor_points[scene.is_selected].mean(axis=0)
         overlay.setFocus()
         self._take(KeyHold(deed, self.view, centre, (pointer.x(), pointer.y())))

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QObject
-from PySide6.QtGui import QCursor
 from PySide6.QtWidgets import QMenu
 
 from workbench.app.anchor_tool import AnchorTool
@@ -149,7 +148,7 @@ class Handling(QObject):
     def hold(self, deed: str) -> None:
         """Let the selected anchors follow the pointer, in the target that it is over."""
         targets = [tool for tool in self._tools if tool.is_target]
-        over = [tool for tool in targets if tool.view.rect().contains(tool.view.mapFromGlobal(QCursor.pos()))]
+        over = [tool for tool in targets if tool.view.overlay.underMouse()]
         if any(tool.is_dragging for tool in targets):
             return
         if not (over or targets)[0].hold(deed):
