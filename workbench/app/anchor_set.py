@@ -49,12 +49,20 @@ class AnchorSet:
 
     def with_target(self, vertex: int, target: Iterable[float]) -> AnchorSet:
         """The same with an anchor set or moved."""
-        return replace(self, targets={**self.targets, int(vertex): tuple(float(c) for c in target)})
+        return self._retargeted({**self.targets, int(vertex): tuple(float(c) for c in target)})
 
     def moved(self, vertices: Integers, targets: Floats) -> AnchorSet:
         """The same with those of `vertices` (k,) that are anchors at other targets (k, d)."""
         rows = zip(vertices.tolist(), targets.tolist(), strict=True)
-        return replace(self, targets=self.targets | {v: tuple(t) for v, t in rows if v in self.targets})
+        return self._retargeted(self.targets | {v: tuple(t) for v, t in rows if v in self.targets})
+
+    def _retargeted(self, targets: dict[int, tuple[float, ...]]) -> AnchorSet:
+        """The same with other targets; arrays that do not change are kept where the vertices stay."""
+        found = replace(self, targets=targets)
+        if len(targets) == len(self.targets):
+            kept = ("vertices", "group_numbers", "weight_array", "is_soft", "is_off")
+            found.__dict__.update({name: self.__dict__[name] for name in kept if name in self.__dict__})
+        return found
 
     def joined(self, other: AnchorSet) -> AnchorSet:
         """Both sets; where both have a vertex, all that this one says of it holds."""
