@@ -8,7 +8,8 @@ GESTURES: dict[str, Rows] = {
     "Mouse in a view": (
         ("Move", "shows which vertex is meant"),
         ("Click", "sets an anchor, or selects one"),
-        ("Drag, in the target", "moves an anchor with its group, in the plane of the view"),
+        ("Shift+click, Ctrl+click", "on an anchor: one more is selected, one less"),
+        ("Drag, in the target", "moves an anchor with its group and all that is selected, in the plane of the view"),
         ("Alt+click", "anchors a whole face, or side of a figure, as one group"),
         ("Shift+drag", "anchors what is seen in a box as one group; with Ctrl also what is behind"),
         ("Double click, Enter", "places the selected anchors by numbers"),
@@ -31,8 +32,13 @@ GESTURES: dict[str, Rows] = {
     "While a box or a lasso is drawn": (
         ("B, L", "a box, a lasso instead"),
         ("T", "whether what is hidden is taken, too"),
-        ("Shift, Ctrl", "where anchors are selected: add, take away"),
+        ("Shift, Ctrl", "held while it is drawn: add what is inside, take it away"),
         ("Esc", "leave it"),
+    ),
+    "While a loop or a path is pinned": (
+        ("Move", "shows what would be pinned"),
+        ("Click", "pins the loop; begins the path, then ends it"),
+        ("Esc, right click", "leave it"),
     ),
     "Panels": (
         ("Drag across the histogram", "marks those simplices in every view; Esc clears"),
