@@ -71,6 +71,10 @@ class Colouring(QObject):
         own = self._own.get(pane)
         return own if own is not None else self._book.range_of(self._styles[pane])
 
+    def own_range(self, pane: ViewPane) -> ColourRange | None:
+        """The range that is this view's own; None where it shares one."""
+        return self._own.get(pane)
+
     def set_own(self, pane: ViewPane, on: bool) -> None:
         """Give a view a range of its own, which is as the shared one at first, or take it away."""
         style = self._styles[pane]

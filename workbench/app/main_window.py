@@ -60,6 +60,7 @@ from workbench.app.texturing.texturing import Texturing
 from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.timeline.time_line import TimeLine
 from workbench.app.view_memory import ViewMemory
+from workbench.app.view_states.view_states import ViewStates
 from workbench.app.views.pane import ViewPane
 from workbench.app.views.textures import PATTERN_LABELS
 from workbench.app.volumes.look_tools import LookTools
@@ -132,6 +133,7 @@ class MainWindow(QMainWindow):
         self._apply_theme(self.theme)
         self.preferring = Preferring(self)
         self.layouts = Layouts(self)
+        self.view_states = ViewStates(self)
         self.view_memory = ViewMemory(self)
         self._restore_layout()
         self._finder = MethodFinder(self)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from workbench.app.quantities import Quantity
-from workbench.core.errors import WorkbenchError
+from workbench.app.view_states.range_state import range_state, take_range_state
+from workbench.app.view_states.words import quantity_meant, words_of
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -57,17 +57,9 @@ class ViewMemory:
         window, book = self._window, self._window.quantities
         shown = {name: self._shown(name) for name in self._names}
         # what still waits for its formula to be found is kept as it was
-        views = {name: _words(book[id]) if id in book else id for name, id in shown.items()} | self._waiting
-        scales = {
-            r.quantity.id: {
-                "logarithmic": r.is_logarithmic,
-                "reversed": r.is_reversed,
-                "whole": r.is_whole,
-                "clipped": r.is_clipped,
-            }
-            for r in book.ranges()
-            if r.is_logarithmic != r.quantity.is_logarithmic or r.is_reversed or r.is_whole or r.is_clipped
-        }
+        views = {name: words_of(book[id]) if id in book else id for name, id in shown.items()} | self._waiting
+        states = {r.quantity.id: range_state(r, with_ends=False) for r in book.ranges()}
+        scales = {id: state for id, state in states.items() if state}
         return {
             "views": views,
             "scales": self._scales | scales,
@@ -81,6 +73,7 @@ class ViewMemory:
             },
             "inspector": {"page": window.inspector.tabs.currentIndex()},
             "solid": window.volume.kept(),
+            "splits": window.view_states.state(of_mesh=False),
             "pattern": window.texturing.kept(),
             "glyphs": window.glyphs.kept(),
         }
@@ -99,6 +92,7 @@ class ViewMemory:
         window.volume.take_kept(_table(state, "solid"))
         window.texturing.take_kept(_table(state, "pattern"))
         window.glyphs.take_kept(_table(state, "glyphs"))
+        window.view_states.restore(_table(state, "splits"))
         self._waiting = {name: words for name, words in _table(state, "views").items() if name in self._begins}
         self._scales = _table(state, "scales")
         self._go_on()
@@ -113,7 +107,7 @@ class ViewMemory:
             if id is not None and self._shown(name) == self._begins[name] != id:
                 self._show(name, id)
         for id in [id for id in self._scales if id in book]:
-            self._set_scale(id, self._scales.pop(id))
+            take_range_state(book.range_of(id), self._scales.pop(id))
         if book.is_listed:
             self._scales = {}
 
@@ -123,33 +117,7 @@ class ViewMemory:
         if isinstance(words, str):
             is_pattern = name in ("source", "target") and getattr(self._window, name).offers(words)
             return words if is_pattern or words in book else None
-        if not isinstance(words, dict) or not book.is_listed:
-            return None
-        parameters = _table(words, "parameters")
-        if not all(isinstance(value, int | float) for value in parameters.values()):
-            return None
-        try:
-            return book.add_formula(str(words.get("formula", "")), parameters).id
-        except WorkbenchError:
-            return None
-
-    def _set_scale(self, id: str, scale: object) -> None:
-        if not isinstance(scale, dict):
-            return
-        colour_range = self._window.quantities.range_of(id)
-        if isinstance(scale.get("logarithmic"), bool):
-            colour_range.set_logarithmic(scale["logarithmic"])
-        colour_range.set_reversed(scale.get("reversed") is True)
-        colour_range.set_clipped(scale.get("clipped") is True)
-        if scale.get("whole") is True:
-            colour_range.fit(whole=True)
-
-
-def _words(quantity: Quantity) -> object:
-    """What a quantity is found again by: its id, or the formula that was typed for it."""
-    if quantity.group != "typed":
-        return quantity.id
-    return {"formula": quantity.text, "parameters": dict(quantity.parameters)}
+        return quantity_meant(words, book)
 
 
 def _table(state: Plain, name: str) -> Plain:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
+
+import numpy as np
 
 from workbench.core.errors import WorkbenchError
 from workbench.core.linear_equations import LONGEST_EQUATION, MOST_EQUATIONS, read_equations
@@ -159,6 +161,41 @@ def anchors(what: str, value: Any) -> dict[str, Any]:
         "anchor_groups": tuple(groups),
         "anchors_off": frozenset(off),
     }
+
+
+def one_of(choices: tuple[str, ...]) -> Check:
+    """A text that is one of these."""
+
+    def check(what: str, value: Any) -> str:
+        if not isinstance(value, str) or value not in choices:
+            raise refuse(what, value, f"one of {', '.join(choices)}")
+        return value
+
+    return check
+
+
+def axes(what: str, value: Any) -> tuple[tuple[float, ...], ...]:
+    """Three directions of length 1, at right angles: to the right, upwards, towards the eye."""
+    lines = [rows(what, line, 3) for line in rows(what, value, 3)]
+    found = tuple(tuple(number(what, entry, -1.0, 1.0) for entry in line) for line in lines)
+    if [len(line) for line in found] != [3, 3, 3] or np.abs(np.array(found) @ np.array(found).T - np.eye(3)).max() > 1e-4:
+        raise refuse(what, value, "three axes of length 1, at right angles")
+    return found
+
+
+def only_known(found: Mapping[str, Any], known: set[str], what: str) -> None:
+    """Raises `WorkbenchError` for the first entry that is not known."""
+    unknown = next((name for name in found if name not in known), None)
+    if unknown is not None:
+        raise WorkbenchError(f"{what} has an entry {unknown[:SHOWN]!r}, which is not known.")
+
+
+def checked_object(plain: Any, checks: Mapping[str, Check], what: str) -> dict[str, Any]:
+    """Every entry of an object checked by name. Raises `WorkbenchError` for others."""
+    if not isinstance(plain, dict):
+        raise refuse(what, plain, "an object")
+    only_known(plain, set(checks), what)
+    return {name: checks[name](f"{what}: {name}", value) for name, value in plain.items()}
 
 
 CHOICES: dict[str, Check] = {

@@ -10,9 +10,10 @@ from typing import Any, get_args
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
-from workbench.session import schema
+from workbench.session import schema, view_schema
 from workbench.session.journal import LONGEST, Leg, Origin
 from workbench.session.record import SessionRecord
+from workbench.session.schema import only_known
 from workbench.session.session import ANCHORS, Session
 
 FORMAT = "distortion-workbench session"
@@ -44,6 +45,8 @@ def plain_of(record: SessionRecord) -> tuple[dict[str, Any], dict[str, Floats]]:
         plain["energy"] = record.energy
     if record.legs:
         plain["legs"] = [_leg_object(leg, session, index, arrays) for index, leg in enumerate(record.legs)]
+    if record.views is not None:
+        plain["views"] = dict(record.views)
     if record.map is not None:
         arrays[MAP] = record.map
     return plain, arrays
@@ -130,7 +133,7 @@ def _no_twins(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 def record_of(plain: Mapping[str, Any], arrays: Mapping[str, Floats]) -> SessionRecord:
     """The session that a parsed object and the arrays beside it stand for. Raises `WorkbenchError` naming what is wrong."""
-    known = {"format", "version", "source", "anchors", "energy", "legs", *schema.CHOICES}
+    known = {"format", "version", "source", "anchors", "energy", "legs", "views", *schema.CHOICES}
     only_known(plain, known, "The session")
     source, sha256 = _source(plain.get("source"))
     choices = {name: check(name, plain[name]) for name, check in schema.CHOICES.items() if name in plain}
@@ -143,14 +146,8 @@ def record_of(plain: Mapping[str, Any], arrays: Mapping[str, Floats]) -> Session
     only_known(arrays, used, "The file")
     if any(a.shape[1] != b.shape[1] or len(a) != len(b) for a in arrays.values() for b in arrays.values()):
         raise WorkbenchError("Its maps are not all of one mesh.")
-    return SessionRecord(session, sha256, found, legs, energy)
-
-
-def only_known(found: Mapping[str, Any], known: set[str], what: str) -> None:
-    """Raises `WorkbenchError` for the first entry that is not known."""
-    unknown = next((name for name in found if name not in known), None)
-    if unknown is not None:
-        raise WorkbenchError(f"{what} has an entry {unknown[: schema.SHOWN]!r}, which is not known.")
+    shown = view_schema.views("views", plain["views"]) if "views" in plain else None
+    return SessionRecord(session, sha256, found, legs, energy, shown)
 
 
 def _source(value: Any) -> tuple[str, str]:

@@ -51,11 +51,14 @@ class SessionDesk(QObject):
     mesh_wanted = Signal(object)
     """A `Found` whose mesh is missing or another one: the user is asked for it."""
     saved = Signal(str)
+    views_found = Signal(object)
+    """How the views of a session that is gone to were, as its file has them"""
 
     def __init__(self, document: Document) -> None:
         super().__init__(document)
         self._document = document
         self._works: list[Background] = []
+        self.views: Callable[[], dict[str, Any] | None] = lambda: None
         self.path = ""
         self.is_modified = False
         self._pending_path: str | None = None
@@ -80,7 +83,8 @@ class SessionDesk(QObject):
         is_settled = snapshot.phase in ("idle", "finished") and not document.is_held
         if is_told and not is_settled:
             is_told = bool(legs) and _agree(legs[-1].choices, session)
-        return SessionRecord(session, "", snapshot.positions, legs, snapshot.row.energy if is_told else None)
+        energy = snapshot.row.energy if is_told else None
+        return SessionRecord(session, "", snapshot.positions, legs, energy, self.views())
 
     def save(self, path: str, *, is_copy: bool = False) -> None:
         """Write the session as it is now, on a thread; a copy leaves name and mark of the window alone."""
@@ -146,6 +150,7 @@ class SessionDesk(QObject):
             is_recovered = not found.keeps_path and is_session_file(found.path)
             self._document.changing.emit("Recover" if is_recovered else f"Open {Path(found.path).name}", "")
         self._document.restore(session, record.map)
+        self.views_found.emit(record.views)
         if not self._document.opening_source:
             self._opened()
 

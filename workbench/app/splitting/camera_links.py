@@ -68,6 +68,11 @@ class CameraLinks(QObject):
             if partner is not None:
                 self._pass_on(partner.view, view)
 
+    def note(self, view: MeshView, on: bool) -> None:
+        """Link a view or not, and leave its camera as it is until one of its kind is moved."""
+        self._links[view].is_on = on
+        self._behind.clear()
+
     def stop(self) -> None:
         self._later.stop()
 

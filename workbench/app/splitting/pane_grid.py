@@ -79,6 +79,11 @@ class PaneGrid:
         """The tree with the sizes as they are now."""
         return _state(self.root)
 
+    def reset(self) -> None:
+        """The leaves to begin with side by side again; there are no others."""
+        names = [leaf.objectName() for leaf in self.leaves()]
+        self.arrange({"split": "right", "sizes": [500] * len(names), "parts": sorted(names)}, _by_name(self.leaves()))
+
     def arrange(self, tree: Tree, leaves: Mapping[str, QWidget]) -> None:
         """Arrange these leaves, those that are there already among them, as a tree that `state` gave says.
 
@@ -91,6 +96,10 @@ class PaneGrid:
             nested.deleteLater()
         self.root.setOrientation(ORIENTATIONS[tree["split"]])
         _fill(self.root, tree, leaves)
+
+
+def _by_name(leaves: list[QWidget]) -> dict[str, QWidget]:
+    return {leaf.objectName(): leaf for leaf in leaves}
 
 
 def _splitter(side: Side) -> QSplitter:

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QSignalBlocker, Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.splitting.camera_links import CameraLinks
 from workbench.app.splitting.leaf import Leaf
-from workbench.app.splitting.pane_grid import CLOSED, PaneGrid, Side
+from workbench.app.splitting.pane_grid import CLOSED, PaneGrid, Side, Tree
 from workbench.app.splitting.pane_tools import PaneTools
 from workbench.app.splitting.split_pane import SIDES, SplitPane
 from workbench.app.views.mesh_view import MeshView
+from workbench.session import view_schema
 
 if TYPE_CHECKING:
     from workbench.app.docks.colour_map_dock import ColourMapDock
@@ -222,6 +224,52 @@ class Splitting(QObject):
             leaf.tool.let_go()
             window.document.opened.disconnect(leaf.tool.let_go)
         leaf.view.close_view()
+
+    # ------------------------------------------------------------------------------------------ memory
+
+    def layout(self) -> dict[str, Tree]:
+        """How each grid is arranged that is not as at the beginning."""
+        has_panes = bool(self.panes)
+        return {name: grid.state() for name, grid in self.grids.items() if has_panes and len(grid.leaves()) > 1}
+
+    def arrange(self, layout: Mapping[str, Tree], sides: Mapping[str, str]) -> None:
+        """Arrange the views as `layout` gave it; `sides` says what new panes show. Trees that lack a view stay away."""
+        for pane in self.panes:
+            self.set_visible_all()
+            self.close_view(pane.objectName())
+        for name, grid in self.grids.items():
+            if len(grid.leaves()) > 1:
+                grid.reset()
+            fixed = {leaf.objectName(): leaf for leaf in grid.leaves()}
+            tree = layout.get(name)
+            named = [] if tree is None else list(view_schema.leaves(tree))
+            wanted = [leaf for leaf in named if leaf not in fixed]
+            is_sound = set(fixed) <= set(named) and all(leaf in sides for leaf in wanted)
+            if tree is None or not is_sound or len(self.panes) + len(wanted) > MOST_PANES:
+                continue
+            made = {leaf: self.make(leaf, sides[leaf]) for leaf in wanted}
+            grid.arrange(tree, fixed | made)
+            for pane in made.values():
+                self._begin(pane, "plain")
+        self.changed.emit()
+
+    def set_visible_all(self) -> None:
+        """Show source and target."""
+        for name in SIDES:
+            if not self.is_visible(name):
+                self.set_visible(name, True)
+
+    @staticmethod
+    def begins_linked(leaf: Leaf) -> bool:
+        """Whether the camera of a view is linked until someone says otherwise: colour maps show everything."""
+        return leaf.pane is not None
+
+    def note_linked(self, leaf: Leaf, on: bool) -> None:
+        """Link a view or not, and leave its camera as it is."""
+        assert leaf.tools is not None
+        self.links.note(leaf.view, on)
+        with QSignalBlocker(leaf.tools):
+            leaf.tools.chain.setChecked(on)
 
     # ------------------------------------------------------------------------------------------ menus
 
