@@ -30,6 +30,7 @@ MAP_KINDS = {
 }
 """Written as File > Save map writes them."""
 HISTORY_KIND = ExportKind("&History…", "A row an iteration since the last start, as CSV", "-history.csv", "CSV (*.csv)")
+SCRIPT_KIND = ExportKind("&Python script…", "Repeats the run with workbench.api", "-run.py", "Python (*.py)")
 PICTURE_KINDS = {
     "export-target": ExportKind("Picture of the &target…", "The map as it is shown", "-target.png", PICTURES, "Target"),
     "export-source": ExportKind("Picture of the so&urce…", "The source as it is shown", "-source.png", PICTURES, "Source"),
@@ -37,4 +38,4 @@ PICTURE_KINDS = {
     "export-curve": ExportKind("&Energy over iterations…", "As a picture", "-energy.png", PICTURES, "Curve: energy"),
 }
 """Drawn as figures are: one panel on a page."""
-KINDS: dict[str, ExportKind] = {**MAP_KINDS, "export-history": HISTORY_KIND, **PICTURE_KINDS}
+KINDS: dict[str, ExportKind] = {**MAP_KINDS, "export-history": HISTORY_KIND, "export-script": SCRIPT_KIND, **PICTURE_KINDS}

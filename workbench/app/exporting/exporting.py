@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,9 +18,12 @@ from workbench.app.composing.offers import offers_of, rows_of, subject_of
 from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, PICTURE_KINDS, ExportKind
 from workbench.app.exporting.session_pictures import png_of, session_binder
 from workbench.core.errors import WorkbenchError
+from workbench.engine.python_script import write_script
 from workbench.engine.run_report import history_text
+from workbench.engine.session_file import source_digest
 from workbench.figures.recipe import Page
 from workbench.io.atomic import write_bytes, write_text
+from workbench.io.opening import open_source
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -43,7 +47,7 @@ class Exporting(QObject):
     def fill_menu(self, menu: QMenu) -> None:
         """Meshes and tables, then pictures; what there is nothing for yet is grey."""
         menu.clear()
-        for name in (*MAP_KINDS, "export-history", "", *PICTURE_KINDS):
+        for name in (*MAP_KINDS, "export-history", "export-script", "", *PICTURE_KINDS):
             if not name:
                 menu.addSeparator()
                 continue
@@ -77,12 +81,24 @@ class Exporting(QObject):
             self._window.commands.save_map(path)
         elif name in PICTURE_KINDS:
             self._draw(PICTURE_KINDS[name].panel, path)
+        elif name == "export-script":
+            self._write_script(path)
         else:
             self._write_history(path)
 
     def _write_history(self, path: str) -> None:
         rows = rows_of(self._window.history)
         self._start(lambda: write_text(path, history_text(rows)), path)
+
+    def _write_script(self, path: str) -> None:
+        record = self._window.sessions.desk.record()
+        session = record.session
+
+        def work() -> None:
+            opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
+            write_script(path, replace(record, sha256=source_digest(session.source)), opened)
+
+        self._start(work, path)
 
     def _draw(self, words: str, path: str) -> None:
         subject = subject_of(self._window)
