@@ -41,8 +41,11 @@ def test_layouts_of_the_program_show_what_they_are_for(window: MainWindow) -> No
     layouts.apply(DEFAULT)
     usual = shown(window)
     assert {"choices", "histogram", "convergence"} <= usual and "inspector" not in usual
+    size = window.size()
     for name, docks in SHOWN.items():
         layouts.apply(name)
+        QTest.qWait(30)
+        assert window.size() == size, "there is room for it in a window of common size"
         assert shown(window) == {dock.objectName() for dock in docks(window)}, name
     layouts.apply(DEFAULT)
     assert shown(window) == usual

@@ -5,9 +5,10 @@ from __future__ import annotations
 import binascii
 from base64 import b64decode, b64encode
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QByteArray, QObject, Qt
+from PySide6.QtCore import QByteArray, QObject, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QInputDialog, QLineEdit, QMenu, QToolBar
 
 from workbench.app.layouts.screens import bring_on_screen
@@ -19,18 +20,27 @@ if TYPE_CHECKING:
 DEFAULT = "Default"
 SHOWN: dict[str, Callable[[MainWindow], list[QDockWidget]]] = {
     "Drag": lambda window: [window.panel_dock, window.maps[-1]],
-    "Analyse": lambda window: [window.panel_dock, *window.maps, window.inspector, window.histogram, window.convergence],
+    "Analyse": lambda window: [window.panel_dock, window.maps[-1], window.inspector, window.histogram, window.convergence],
     "Views only": lambda window: [],
 }
 """Panels that a layout of the program shows, where they lie at first; all others are closed."""
 TIPS = {
     DEFAULT: "Every panel where it was at the first start",
     "Drag": "Large views, the choices and one colour map",
-    "Analyse": "Everything that measures, with the inspector",
+    "Analyse": "The inspector, histogram and curves beside one colour map",
     "Views only": "Source and target, and nothing beside them",
 }
 LONGEST, MOST = 40, 30
 """Letters of a name, and layouts that are kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class Before:
+    """How the window was when views were given the screen."""
+
+    state: QByteArray
+    how: Qt.WindowState
+    bars: list[QToolBar]
 
 
 class Layouts(QObject):
@@ -40,7 +50,7 @@ class Layouts(QObject):
         super().__init__(window)
         self._window = window
         self._first = window.saveState()
-        self._before: tuple[QByteArray, Qt.WindowState, list[QToolBar]] | None = None
+        self._before: Before | None = None
         self.dialog: QInputDialog | None = None
         actions = window.actions_by_name
         actions["present"].triggered.connect(self.present)
@@ -79,6 +89,8 @@ class Layouts(QObject):
         """Arrange the panels as a layout has them."""
         self.present(False)
         window, own = self._window, self.own
+        size = window.size()
+        QTimer.singleShot(0, self, lambda: window.resize(size))  # panels that change places may push it apart
         if name in own:
             if not window.restoreState(own[name]):
                 window.status.say(f"The layout {name} is of another version of the window; save it anew.")
@@ -86,7 +98,7 @@ class Layouts(QObject):
         window.restoreState(self._first)
         if name in SHOWN:
             shown = SHOWN[name](window)
-            for dock in window.docks:
+            for dock in sorted(window.docks, key=lambda dock: dock in shown):  # room is made before it is taken
                 dock.setVisible(dock in shown)
 
     def save_as(self, name: str) -> None:
@@ -144,17 +156,17 @@ class Layouts(QObject):
         window = self._window
         if wanted and self._before is None:
             bars = [bar for bar in window.findChildren(QToolBar) if bar.parent() is window and bar.isVisible()]
-            self._before = window.saveState(), window.windowState(), bars
+            self._before = Before(window.saveState(), window.windowState(), bars)
             window.addActions(list(window.actions_by_name.values()))  # keys of a menu that is hidden would be dead
             for widget in (*window.docks, *bars, window.menuBar(), window.statusBar()):
                 widget.hide()
             window.showFullScreen()
         elif not wanted and self._before is not None:
-            (state, how, bars), self._before = self._before, None
-            for widget in (*bars, window.menuBar(), window.statusBar()):
+            before, self._before = self._before, None
+            for widget in (*before.bars, window.menuBar(), window.statusBar()):
                 widget.show()
-            window.setWindowState(how & ~Qt.WindowState.WindowMinimized)
-            window.restoreState(state)
+            window.setWindowState(before.how & ~Qt.WindowState.WindowMinimized)
+            window.restoreState(before.state)
         window.actions_by_name["present"].setChecked(self.is_presenting)
 
     # ------------------------------------------------------------------------------------------ menu
@@ -163,8 +175,8 @@ class Layouts(QObject):
         """Layouts of the program, of the user, and what can be done with them."""
         menu.clear()
         menu.setToolTipsVisible(True)
-        for number, (name, tip) in enumerate(TIPS.items(), 1):
-            self._add(menu, f"&{number} {name}", lambda n=name: self.apply(n), tip)
+        for name, tip in TIPS.items():
+            self._add(menu, f"&{name}", lambda n=name: self.apply(n), tip)
         own = sorted(self.own, key=str.lower)
         if own:
             menu.addSeparator()

@@ -96,7 +96,9 @@ def as_html(sheet: Mapping[str, Sequence[tuple[str, str]]]) -> str:
     """Tables with headings, for a page or the screen."""
     parts = []
     for section, rows in sheet.items():
-        lines = "".join(f"<tr><td><b>{html.escape(keys)}</b></td><td>{html.escape(words)}</td></tr>" for keys, words in rows)
+        lines = "".join(
+            f"<tr><td width='190'><b>{html.escape(keys)}</b></td><td>{html.escape(words)}</td></tr>" for keys, words in rows
+        )
         parts.append(f'<h3>{html.escape(section)}</h3><table cellpadding="3">{lines}</table>')
     return "".join(parts)
 
