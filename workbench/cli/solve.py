@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.cli.carrying import add_carry_options, carried_report, check_carry_options, read_carried, write_carried
+from workbench.cli.filming import Filming, add_film_option
 from workbench.cli.options import add_solve_options, wishes_of
 from workbench.cli.output import check_places, teller
 from workbench.cli.threads import limit_threads
@@ -21,6 +22,7 @@ from workbench.io.tables import number
 if TYPE_CHECKING:
     from workbench.cli.carrying import Carried
     from workbench.core.run import HistoryRow, RunResult
+    from workbench.core.state import State
     from workbench.engine.preparation import Prepared
 
 RUN_FAILED = 1
@@ -36,6 +38,7 @@ def add_parser(name: str, commands: argparse._SubParsersAction[argparse.Argument
     )
     add_solve_options(parser)
     add_carry_options(parser)
+    add_film_option(parser)
     parser.add_argument("--report", metavar="REPORT.json", help="one JSON object about the run")
     parser.add_argument("--history", metavar="HISTORY.csv", help="a row an iteration")
     parser.set_defaults(run=run)
@@ -52,9 +55,12 @@ def run(options: argparse.Namespace) -> int:
     tell = teller(options.quiet)
     for note in (*prepared.opened.notes, *((carried.surface.note,) if carried and carried.surface.note else ())):
         tell(note)
+    film = Filming(options.film, prepared) if options.film else None
     with InterruptFlag() as interrupt:
-        result, fault = _solve(prepared, options, interrupt, tell)
+        result, fault = _solve(prepared, options, interrupt, tell, film.take if film else lambda state: None)
         report = _write(prepared, carried, options, result, fault)
+        if film is not None:
+            film.write(tell)
     if not options.quiet:
         print(_summary(report, options.out))
     if report["status"] == "FAILED" or result.state.status.is_failure:
@@ -70,11 +76,15 @@ def _check_outputs(options: argparse.Namespace) -> None:
     if ending not in WRITABLE:
         raise WorkbenchError(f"{options.out}: maps are written as {', '.join(WRITABLE)}; choose one of these endings.")
     check_carry_options(options)
-    check_places(path for path in (options.out, options.carried_out, options.report, options.history) if path)
+    check_places(path for path in (options.out, options.carried_out, options.report, options.history, options.film) if path)
 
 
 def _solve(
-    prepared: Prepared, options: argparse.Namespace, interrupt: InterruptFlag, tell: Callable[[str], None]
+    prepared: Prepared,
+    options: argparse.Namespace,
+    interrupt: InterruptFlag,
+    tell: Callable[[str], None],
+    on_state: Callable[[State], None],
 ) -> tuple[RunResult, str]:
     """The result, and the sentence of a solver that raised (a plugin's fault): then the result ends at its last map."""
     from workbench.engine.last_map_run import run_to_last_map
@@ -98,6 +108,7 @@ def _solve(
         time_limit=options.time_limit,
         interrupt=interrupt,
         on_row=on_row,
+        on_state=on_state,
     )
 
 

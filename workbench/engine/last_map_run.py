@@ -20,6 +20,7 @@ def run_to_last_map(
     start: Floats,
     *,
     on_row: Callable[[HistoryRow], None] = lambda row: None,
+    on_state: Callable[[State], None] = lambda state: None,
     **limits: Any,
 ) -> tuple[RunResult, str]:
     """The result, and the sentence of a solver that raised, else an empty one; such a result ends at its last map.
@@ -38,6 +39,7 @@ def run_to_last_map(
 
     def keep_state(state: State) -> None:
         states[:] = [state] if not states else [states[0], state]
+        on_state(state)
 
     try:
         return run(solver, problem, start, on_row=keep_row, on_state=keep_state, **limits), ""
