@@ -221,7 +221,7 @@ def test_cells_are_edited_one_by_one_and_many_at_once(window: MainWindow, dock: 
     click(dock, 2, "group")
     type_into(dock, "7")
     assert document.anchors.groups == {60: 7}
-    assert steps(window)[count + 1 :] == ("Weigh 2 anchors", "Weigh 2 anchors", "Group anchors")
+    assert steps(window)[count + 1 :] == ("Weight of 2 anchors", "Weight of 2 anchors", "Group anchors")
     for _ in range(4):
         window.undoing.undo()
         QTest.qWait(40)

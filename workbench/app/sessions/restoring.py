@@ -77,7 +77,7 @@ def name_of_anchor_change(before: AnchorSet, after: AnchorSet) -> str:
         verb, count = ("Switch off", gone) if gone >= back else ("Switch on", back)
     elif before.weights != after.weights:
         changed = [v for v in after.targets if before.weights.get(v) != after.weights.get(v)]
-        verb, count = ("Weigh" if any(v in after.weights for v in changed) else "Harden"), len(changed)
+        verb, count = ("Weight of" if any(v in after.weights for v in changed) else "Harden"), len(changed)
     else:
         return "Group anchors"
     return f"{verb} anchor" if count == 1 else f"{verb} {count} anchors"
