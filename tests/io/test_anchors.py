@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.mesh import Mesh
 from workbench.io.anchor_rows import AnchorTable
-from workbench.io.anchors import read_anchors, write_anchors
+from workbench.io.anchors import read_anchors, vertices_after_fixes, vertices_before_fixes, write_anchors
 
 
 def read(folder: Path, text: str, dimension: int = 2) -> AnchorTable:
@@ -64,3 +65,32 @@ def test_refusals_name_the_line(tmp_path: Path, text: str, what: str) -> None:
     with pytest.raises(WorkbenchError, match=r"anchors\.csv") as refusal:
         read(tmp_path, text)
     assert what in refusal.value.sentence
+
+
+def test_groups_and_switches_and_what_spreadsheets_write(tmp_path: Path) -> None:
+    found = read(tmp_path, "vertex;x;y;weight;group;on\n3;0,5;-1;;4;on\n7;1;2,25;0,125;;off\n")
+    assert found.targets.tolist() == [[0.5, -1.0], [1.0, 2.25]]
+    assert found.weights.tolist() == [np.inf, 0.125]
+    assert found.groups.tolist() == [4, -1] and found.is_off.tolist() == [False, True]
+    assert found.in_force.vertices.tolist() == [3] and found.in_force.groups.tolist() == [4]
+    write_anchors(tmp_path / "again.csv", found)
+    assert (tmp_path / "again.csv").read_text().splitlines()[0] == "vertex,x,y,weight,group,on"
+    again = read_anchors(tmp_path / "again.csv", 10, 2)
+    for name in ("vertices", "targets", "weights", "groups", "is_off"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(found, name))
+
+
+def test_vertices_are_those_of_the_mesh_file_whatever_fixes_made_of_it() -> None:
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    # vertices 5 and 0 were dropped, 3 was cut in two
+    mesh = Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]]), vertex_origin=np.array([3, 1, 4, 3]))
+    vertices = np.array([4, 1])
+    after = vertices_after_fixes("a.csv", vertices, mesh)
+    assert after.tolist() == [2, 1]
+    np.testing.assert_array_equal(vertices_before_fixes(after, mesh), vertices)
+    with pytest.raises(WorkbenchError, match="vertex 3 was cut into 2"):
+        vertices_after_fixes("a.csv", np.array([1, 3]), mesh)
+    with pytest.raises(WorkbenchError, match="vertex 5 was dropped"):
+        vertices_after_fixes("a.csv", np.array([5]), mesh)
+    with pytest.raises(WorkbenchError, match="Vertex 3 lies on a cut"):
+        vertices_before_fixes(np.array([3]), mesh)
