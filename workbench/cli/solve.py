@@ -59,8 +59,12 @@ def run(options: argparse.Namespace) -> int:
     with InterruptFlag() as interrupt:
         result, fault = _solve(prepared, options, interrupt, tell, film.take if film else lambda state: None)
         report = _write(prepared, carried, options, result, fault)
-        if film is not None:
-            film.write(tell)
+        try:
+            if film is not None:
+                film.write(tell)
+        except WorkbenchError as error:  # all else is there
+            print(f"workbench: {error.sentence}", file=sys.stderr)
+            return RUN_FAILED
     if not options.quiet:
         print(_summary(report, options.out))
     if report["status"] == "FAILED" or result.state.status.is_failure:
