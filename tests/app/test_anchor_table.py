@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from PySide6.QtCore import QPoint, Qt
+from PySide6.QtCore import QItemSelectionModel, QPoint, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QMessageBox
@@ -241,6 +241,11 @@ def test_a_tick_switches_anchors_off_and_nothing_holds_them_then(window: MainWin
     scene = window.target.view.overlay.scene
     assert scene.anchor_vertices[scene.off].tolist() == [4]
     assert "1 off" in dock.summary.text()
+    QTest.keyClick(dock.table, Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+    dock.table.selectionModel().setCurrentIndex(dock.model.index(1, 0), QItemSelectionModel.SelectionFlag.NoUpdate)
+    QTest.keyClick(dock.table, Qt.Key.Key_Space)
+    assert document.anchors.off == {4, 130, 60}, "the key of the cell, not that of the solver"
+    assert not document.wants_to_run
 
 
 def test_views_and_table_select_alike(window: MainWindow, dock: AnchorDock) -> None:
