@@ -27,7 +27,8 @@ class Kept:
 
 
 def add_film_option(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--film", metavar="FILM.gif", help="the maps of the run, one a frame: .gif, or .mp4 where there is ffmpeg")
+    told = "the maps of the run, one a frame: .gif, or .mp4 where there is ffmpeg"
+    parser.add_argument("--film", metavar="FILM.gif", help=told)
 
 
 class Filming:
@@ -55,7 +56,10 @@ class Filming:
             self._kept = [kept for kept in self._kept if kept.iteration % self._every == 0]
 
     def write(self, tell: Callable[[str], None]) -> None:
-        """The source under the texture of the map, and the map in the colours of what was minimised."""
+        """The source under the texture of the map, and the map in the colours of what was minimised.
+
+        Raises `WorkbenchError` where that fails.
+        """
         from workbench.core.measure import Measure
         from workbench.figures.film import Film, Still
         from workbench.figures.film_file import save_film
@@ -70,7 +74,8 @@ class Filming:
         anchors = tuple(problem.anchors.vertices.tolist())
 
         def still(kept: Kept) -> Still:
-            return Still(lambda: kept.positions.astype(float), f"iteration {kept.iteration}    energy {kept.energy:.6g}", anchors)
+            words = f"iteration {kept.iteration}    energy {kept.energy:.6g}"
+            return Still(lambda: kept.positions.astype(float), words, anchors)
 
         shown = self._kept if self._last in self._kept[-1:] or self._last is None else [*self._kept, self._last]
         tell(f"filming {len(shown)} maps")
