@@ -112,6 +112,7 @@ TEXTS: dict[str, ActionText] = {
     "help": ActionText("&Help", ("F1",), "The README, at the chapter about what is in use (F1)"),
     "log": ActionText("&Log", (), "All that was told, with times and details"),
     "shortcuts": ActionText("&Keys and mouse…", ("Ctrl+F1",), "Every key and gesture, to be searched, copied and printed"),
+    "cite": ActionText("&Cite what this session uses…", (), "Distortions, solvers and start as BibTeX, with the survey"),
     "report": ActionText("&Report on the mesh", (), "What was found in the file, and what was done to it"),
     "about": ActionText("&About", (), "What this program is, and which survey it follows"),
 }

@@ -12,11 +12,13 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from workbench.app.background import Background
 from workbench.app.binding.binding import Binding
+from workbench.app.citing.citing import Citing
 from workbench.app.composing.composing import Composing
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.exporting.exporting import Exporting
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT
+from workbench.app.method_tips.chooser_tips import ChooserTips
 from workbench.app.palette.commanding import Commanding
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
@@ -58,7 +60,9 @@ class Commands(QObject):
         self.ranked = RankedPlaces(window)
         self.binding = Binding(window)
         self.exporting = Exporting(window)
+        self.citing = Citing(window)
         self.commanding = Commanding(window)
+        self.tips = ChooserTips(window)
         window.carried.told.connect(window.status.say)
         window.carried.refused.connect(self._carried_refused)
         document = window.document
@@ -100,6 +104,7 @@ class Commands(QObject):
             "shortcuts": self.show_keys,
             "help": window.help.show,
             "log": window.noticing.show,
+            "cite": self.citing.ask,
             "report": self.show_report,
             "about": lambda: self._tell("About", ABOUT),
         }
@@ -109,6 +114,7 @@ class Commands(QObject):
     def wait(self) -> None:
         """Let threads end before the window does."""
         self._window.preferring.end()
+        self.tips.wait()
         self.saver.wait()
         if self.signatures is not None:
             self.signatures.wait()

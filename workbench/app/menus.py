@@ -93,7 +93,7 @@ def fill_menus(window: MainWindow) -> None:
     layout = view.addMenu("La&yout")
     layout.aboutToShow.connect(lambda: window.layouts.fill_menu(layout))
     help_menu = bar.addMenu("&Help")
-    for name in ("help", "shortcuts", "log", "report", "about"):
+    for name in ("help", "shortcuts", "log", "cite", "report", "about"):
         help_menu.addAction(actions[name])
     settle_menus(bar)
 

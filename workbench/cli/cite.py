@@ -36,14 +36,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _cited(name: str) -> tuple[Cited, ...]:
     from workbench.core.bibliography import methods_named
-    from workbench.engine.citing import cited_in
-    from workbench.engine.session_file import is_session_file, read_session, source_trouble
-    from workbench.io.opening import open_source
+    from workbench.engine.citing import cited_in_file
+    from workbench.engine.session_file import is_session_file
 
-    if not (is_session_file(name) or Path(name).is_file()):
-        return methods_named(name)
-    record = read_session(name)
-    session = record.session
-    if session.initializer or source_trouble(record):
-        return cited_in(record)
-    return cited_in(record, open_source(session.source, kind=session.kind, fixes=session.fixes))
+    return cited_in_file(name) if is_session_file(name) or Path(name).is_file() else methods_named(name)

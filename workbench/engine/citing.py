@@ -2,36 +2,44 @@
 
 from __future__ import annotations
 
+import os
+
 from workbench.core.bibliography import Cited, methods_named, of_distortion
+from workbench.core.method import Kind
 from workbench.core.registry import registry
+from workbench.engine.session_file import read_session, source_trouble
 from workbench.engine.starts import default_initializer
-from workbench.io.opening import OpenedSource
+from workbench.io.opening import open_source
 from workbench.session.record import SessionRecord
-from workbench.session.session import Session
 
 
-def cited_in(record: SessionRecord, opened: OpenedSource | None = None) -> tuple[Cited, ...]:
+def cited_in(record: SessionRecord, kind: Kind | None = None) -> tuple[Cited, ...]:
     """Distortions, solvers and the start of a session, each once; what is not registered here is left out.
 
-    opened : its mesh, which tells the start where the session leaves it to the kind of map
+    kind : of its map, where that decides the start; None: the mesh has a start of its own, or it is not known
     """
+    session, known = record.session, registry()
     found: dict[Cited, None] = {}
-    for choices in (*(leg.choices for leg in record.legs), record.session):
+    for choices in (*(leg.choices for leg in record.legs), session):
         found |= dict.fromkeys(of_distortion(choices.distortion))
-        if choices.solver in registry().solvers:
+        if choices.solver in known.solvers:
             found |= dict.fromkeys(methods_named(choices.solver))
-    start = _start(record.session, opened)
-    if start in registry().initializers:
+    start = session.initializer
+    if not start and kind is not None:
+        start = default_initializer(kind, known.solvers[session.solver].initializer if session.solver in known.solvers else "")
+    if start in known.initializers:
         found |= dict.fromkeys(methods_named(start))
     return tuple(found)
 
 
-def _start(session: Session, opened: OpenedSource | None) -> str:
-    if session.initializer:
-        return session.initializer
-    if opened is None:
-        return ""
-    if opened.start is not None:
-        return "file"
-    solver = registry().solvers.get(session.solver)
-    return default_initializer(opened.kind, "" if solver is None else solver.initializer)
+def cited_in_file(path: str | os.PathLike[str]) -> tuple[Cited, ...]:
+    """What is to be cited for a session file; its mesh is opened where that decides the start, and it is at its place.
+
+    Raises `WorkbenchError` for a file that is no session.
+    """
+    record = read_session(path)
+    session = record.session
+    if session.initializer or source_trouble(record):
+        return cited_in(record)
+    opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
+    return cited_in(record, opened.kind if opened.start is None else None)

@@ -6,9 +6,9 @@ import os
 from pathlib import Path
 
 from workbench.core.bibliography import Cited, bibtex, cited, methods_named, of_distortion
-from workbench.engine.citing import cited_in
+from workbench.engine.citing import cited_in, cited_in_file
 from workbench.engine.preparation import GIVEN
-from workbench.engine.session_file import is_session_file, read_session
+from workbench.engine.session_file import is_session_file
 from workbench.io.atomic import write_text
 from workbench.notebook.solution import Solution
 from workbench.session.record import SessionRecord
@@ -38,7 +38,7 @@ def _cited(what: Solution | SessionRecord | str | os.PathLike[str]) -> tuple[Cit
         return cited_in(what)
     if isinstance(what, str | os.PathLike):
         name = os.fspath(what)
-        return cited_in(read_session(name)) if is_session_file(name) or Path(name).is_file() else methods_named(name)
+        return cited_in_file(name) if is_session_file(name) or Path(name).is_file() else methods_named(name)
     prepared = what.prepared
     distortion = prepared.problem.distortion
     parts = [*of_distortion(distortion.id), *of_distortion(distortion.formula), cited(type(prepared.solver))]

@@ -1,0 +1,63 @@
+"""A bibliography to copy or to save."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QFontDatabase, QGuiApplication
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
+
+from workbench.core.bibliography import SURVEY, Cited, bibtex
+
+FILTER = "BibTeX (*.bib)"
+Buttons = QDialogButtonBox.StandardButton
+Role = QDialogButtonBox.ButtonRole
+
+
+class CitationDialog(QDialog):
+    """The methods with their keys above, their entries below; `save_wanted` carries a place."""
+
+    save_wanted = Signal(str)
+
+    def __init__(self, methods: Sequence[Cited], folder: str, stem: str, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setWindowTitle("Cite what this session uses")
+        self._place = str(Path(folder) / f"{stem}.bib")
+        self.methods = QLabel(_listed(methods), self)
+        self.methods.setTextFormat(Qt.TextFormat.PlainText)
+        self.methods.setWordWrap(True)
+        self.text = QPlainTextEdit(bibtex(methods), self)
+        self.text.setReadOnly(True)
+        self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.text.setMinimumSize(760, 360)
+        buttons = QDialogButtonBox(Buttons.Close, self)
+        self.copy_button = buttons.addButton("&Copy", Role.ActionRole)
+        self.copy_button.clicked.connect(self.copy)
+        buttons.addButton("&Save as .bib…", Role.ActionRole).clicked.connect(self._ask_save)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        for part in (self.methods, self.text, buttons):
+            layout.addWidget(part)
+        layout.setStretchFactor(self.text, 1)
+
+    def copy(self) -> None:
+        """Put the bibliography on the clipboard."""
+        QGuiApplication.clipboard().setText(self.text.toPlainText())
+        self.copy_button.setText("Copied")
+
+    def _ask_save(self) -> None:
+        dialog = QFileDialog(self, "Save the bibliography", self._place, FILTER)
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("bib")
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(self.save_wanted)
+        dialog.open()
+
+
+def _listed(methods: Sequence[Cited]) -> str:
+    """A line a method, the survey first; keys as the entries have them."""
+    lines = [f"The survey that this program follows: {SURVEY}"]
+    return "\n".join([*lines, *(f"{item.label}: {', '.join(item.keys) or 'no source'}" for item in methods)])
