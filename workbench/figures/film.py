@@ -21,7 +21,7 @@ from workbench.figures.film_page import GROUNDS, INKS, Box, Cell, FilmPage, make
 from workbench.figures.film_shading import Paint, Pixels, draw_triangles
 from workbench.figures.mesh_panel import PLAIN_COLOUR
 from workbench.figures.mesh_pictures import Frame, frame_round, shades, skin_of, texture_square, view_of
-from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
+from workbench.figures.recipe import PLAIN, TEXTURES, Panel
 
 if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
@@ -226,7 +226,7 @@ class FilmDrawer:
     def _paint(self, index: int, positions: Floats, values: SingularValues) -> Paint:
         panel, nothing = self.film.panels[index], np.empty((0, 2))
         count = len(self._skin.triangles)
-        if panel.colour == CHEQUERED:
+        if panel.colour in TEXTURES:  # in a film all of them are chequered
             return Paint(np.ones((count, 3)), positions, self._square)
         colours = np.tile(np.array(self._plain), (count, 1))
         if index in self._evaluators:

@@ -9,20 +9,22 @@ import numpy as np
 
 from workbench.core.arrays import Booleans, Floats
 from workbench.core.mesh import Mesh
+from workbench.core.solid_look.drawn_faces import MadePoints
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.figure_maps import FigureMap
+from workbench.figures.glyph_panel import draw_glyphs
 from workbench.figures.mesh_pictures import (
     Frame,
     Skin,
     coloured_picture,
     frame_round,
     in_strips,
-    skin_of,
     texture_square,
     textured_picture,
     view_of,
 )
-from workbench.figures.recipe import CHEQUERED, Panel
+from workbench.figures.recipe import NO_GLYPHS, TEXTURES, Panel
+from workbench.figures.solid_panel import seen_of, veiled, with_made
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,12 +44,22 @@ SEAM = 0.1
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """What a panel shows of a map: `points` (n, 2), or (n, 3) turned to the viewer, and the triangles that are seen."""
+    """What a panel shows of a map: `points` (p, 2), or (p, 3) turned to the viewer, and the triangles that are seen.
+
+    `turn` (3, 3) is what turned them, as rows to the right, up and to the viewer; `made` makes the points that are drawn
+    beside the vertices.
+    """
 
     map: FigureMap
     panel: Panel
     points: Floats
     skin: Skin
+    turn: Floats | None = None
+    made: MadePoints | None = None
+
+    def drawn(self, vertices: Floats) -> Floats:
+        """Rows (n, c) of the vertices -> (p, c) of all points that are drawn."""
+        return with_made(vertices, self.made)
 
     @property
     def is_flat(self) -> bool:
@@ -62,17 +74,19 @@ class Scene:
     @property
     def is_vector(self) -> bool:
         """Whether its triangles are drawn as paths where there are not too many."""
-        return self.is_flat and self.panel.colour != CHEQUERED
+        return self.is_flat and self.panel.colour not in TEXTURES
 
 
 def scene_of(map: FigureMap, panel: Panel) -> Scene:
     """The source or the target of a map, seen from where it shows itself well."""
     points = map.mesh.vertices if panel.kind == "source" else map.positions
+    turn = None
     if points.shape[1] == 3:
         mesh = map.mesh if map.mesh.vertices.shape[1] == 3 else Mesh(points, map.mesh.simplices)
-        axes = np.array(panel.view) if panel.view else view_of(mesh)
-        points = points @ axes.T
-    return Scene(map, panel, points, skin_of(map.mesh))
+        turn = np.array(panel.view) if panel.view else view_of(mesh)
+    skin, made = seen_of(map, panel)
+    points = with_made(points, made)
+    return Scene(map, panel, points if turn is None else points @ turn.T, skin, turn, made)
 
 
 def draw_scene(
@@ -93,21 +107,26 @@ def draw_scene(
     frame : Frame             what is seen; its density is that of a picture
     size : float              factor of the widths of lines, 1 at 8 points of text
     """
-    if scene.panel.colour == CHEQUERED:
-        _picture(axes, in_strips(lambda part: _textured(scene, part), frame), frame)
+    if scene.panel.colour in TEXTURES:
+        _picture(axes, in_strips(lambda part: veiled(_textured(scene, part), scene, part), frame), frame)
     else:
         colours = _colours(scene, paint, values)
         if as_vectors:
             _triangles(axes, scene, colours, size)
         else:
             on_top = scene.inverted
-            picture = in_strips(lambda part: coloured_picture(scene.points, scene.skin, colours, part, on_top), frame)
-            _picture(axes, picture, frame)
+
+            def draw(part: Frame) -> Floats:
+                return veiled(coloured_picture(scene.points, scene.skin, colours, part, on_top), scene, part)
+
+            _picture(axes, in_strips(draw, frame), frame)
     if scene.is_flat and scene.map.mesh.dimension == 2:
         _outline(axes, scene, size)
         if scene.panel.anchors and len(scene.map.anchors):
             places = scene.points[scene.map.anchors]
             axes.plot(*places.T, "o", ms=ANCHOR * size, color="#0072b2", mec="black", mew=0.3 * size, zorder=4)
+    if scene.panel.glyphs != NO_GLYPHS:
+        draw_glyphs(axes, scene, frame, size)
     left, right, bottom, top = frame.extent
     axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
@@ -139,7 +158,8 @@ def _ends(paint: ScalarMappable) -> tuple[float, float]:
 def _textured(scene: Scene, frame: Frame) -> Floats:
     map = scene.map
     square = texture_square(map.mesh, float(map.elements.rest_measures.sum()))
-    return textured_picture(scene.points, scene.skin, map.positions, square, frame)
+    coordinates = scene.drawn(map.positions)
+    return textured_picture(scene.points, scene.skin, coordinates, square, frame, scene.panel.colour)
 
 
 def _picture(axes: Axes, image: Floats, frame: Frame) -> None:

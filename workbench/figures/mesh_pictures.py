@@ -11,6 +11,7 @@ from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.facets import facet_table
 from workbench.core.mesh import Mesh
 from workbench.figures.raster import Raster, rasterise
+from workbench.figures.recipe import CHEQUERED
 
 PIXELS = 320
 """Of the longer side of a picture."""
@@ -21,6 +22,10 @@ FINER = 2
 SQUARES = 14
 """Of the chequered texture along the side of a square as large as the source."""
 TEXTURE = ((0.96, 0.95, 0.92), (0.20, 0.38, 0.58))
+LINE = 0.08
+"""Width of the lines of a grid, in its cells."""
+RINGS = (0.18, 0.38, 0.45)
+"""Radii of a disc, and of the ring round it, of circles."""
 LIGHT = np.array([-0.35, 0.5, 0.8]) / np.linalg.norm([-0.35, 0.5, 0.8])
 
 
@@ -126,18 +131,41 @@ def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, 
     return _averaged(image, raster)
 
 
-def textured_picture(points: Floats, skin: Skin, coordinates: Floats, square: float, frame: Frame) -> Floats:
-    """An image (h, w, 4) of triangles under a chequered texture.
+def textured_picture(
+    points: Floats, skin: Skin, coordinates: Floats, square: float, frame: Frame, pattern: str = CHEQUERED
+) -> Floats:
+    """An image (h, w, 4) of triangles under a texture, one of `TEXTURES`.
 
     `coordinates` : (n, 2|3) texture coordinates of the vertices;  `square` : side of a square in them
     """
     raster = _raster(points, skin, frame, None)
     # off the corners of squares: a flat side of a solid often lies at a round coordinate
-    place = np.floor(raster.of_vertices(skin.triangles, coordinates) / square + 0.37)
-    image = np.array(TEXTURE)[(place.sum(axis=2) % 2).astype(np.int64)]
+    places = raster.of_vertices(skin.triangles, coordinates) / square + 0.37
+    image = np.array(TEXTURE)[is_inked(places, pattern).astype(np.int64)]
     if points.shape[1] == 3:
         image = image * raster.of_triangles(shades(points, skin))[..., None]
     return _averaged(image, raster)
+
+
+def is_inked(places: Floats, pattern: str) -> Booleans:
+    """Which of places (…, c), in squares of a texture, are dark."""
+    cells = np.floor(places)
+    if pattern == "stripes":
+        return np.asarray(cells[..., 0] % 2 == 1)
+    within = places - cells
+    if pattern == "grid":
+        return np.asarray((within < LINE).any(axis=-1))
+    if pattern == "circles":
+        radius = np.linalg.norm(within - 0.5, axis=-1)
+        return np.asarray((radius < RINGS[0]) | ((radius > RINGS[1]) & (radius < RINGS[2])))
+    return np.asarray(cells.sum(axis=-1) % 2 == 1)
+
+
+def nearness(points: Floats, skin: Skin, frame: Frame) -> Floats:
+    """(h, w): how near what is seen of turned points (n, 3) lies to the viewer; nothing is infinitely far. `FINER` a pixel."""
+    raster = _raster(points, skin, frame, None)
+    near = raster.of_vertices(skin.triangles, points[:, 2:])[..., 0]
+    return np.where(raster.is_covered, near, -np.inf)
 
 
 def texture_square(mesh: Mesh, total_measure: float) -> float:

@@ -5,16 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from workbench.core.solid_look.look import VolumeLook
 from workbench.session.session import Session
 
 CHEQUERED = "chequered"
 PLAIN = "plain"
-PATTERNS = (CHEQUERED, PLAIN)
-"""Colourings that are no measure: the source's texture, and one colour with edges."""
+TEXTURES = (CHEQUERED, "grid", "circles", "stripes")
+PATTERNS = (*TEXTURES, PLAIN)
+"""Colourings that are no measure: textures that are even in the map, and one colour."""
 KINDS = ("map", "source", "histogram", "curves", "colour-bar", "empty")
 BACKGROUNDS = ("white", "transparent")
 QUANTITIES = {"energy": "energy", "gradient-norm": "gradient norm", "inverted": "inverted"}
 """What curves show over the iterations, with the words of their axis."""
+NO_GLYPHS = "none"
+GLYPHS = (NO_GLYPHS, "stretches", "ellipses")
 DEFAULT_MEASURE = "symmetric-dirichlet"
 
 
@@ -51,6 +55,20 @@ class MapChoice:
 
 
 @dataclass(frozen=True)
+class SolidLook:
+    """How a panel looks into a solid.
+
+    `shape` says what is left of it;  `peel_by` is the measure of its threshold, with `parameters`;  `marked` are the
+    tetrahedra that are drawn where only those are
+    """
+
+    shape: VolumeLook = field(default_factory=VolumeLook)
+    peel_by: str = DEFAULT_MEASURE
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    marked: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
 class Panel:
     """A part of the page.
 
@@ -70,6 +88,9 @@ class Panel:
     bar : bool            a colour bar below
     caption : str         above; empty for the label of the map, where there is one
     edges, anchors : bool     whether they are drawn
+    glyphs : str          one of `GLYPHS`: lines along principal stretches, or images of circles; `glyph_count` at the most,
+                          `glyph_size` times as large as usual
+    look : SolidLook      how a solid is looked into; None: from outside
     quantity : str        of curves, one of `QUANTITIES`
     bins : int            of a histogram
     span : int            columns that it takes
@@ -90,6 +111,10 @@ class Panel:
     caption: str = ""
     edges: bool = False
     anchors: bool = True
+    glyphs: str = NO_GLYPHS
+    glyph_count: int = 300
+    glyph_size: float = 1.0
+    look: SolidLook | None = None
     quantity: str = "energy"
     bins: int = 48
     span: int = 1

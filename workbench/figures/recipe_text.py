@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from workbench.core.errors import WorkbenchError
-from workbench.figures.recipe import BACKGROUNDS, KINDS, QUANTITIES, MapChoice, Page, Panel, Recipe
+from workbench.figures.look_text import look_of, plain_look
+from workbench.figures.recipe import BACKGROUNDS, GLYPHS, KINDS, QUANTITIES, MapChoice, Page, Panel, Recipe
 from workbench.io.atomic import write_text
 from workbench.io.opening import SAMPLE
 from workbench.io.read import read_bytes
@@ -23,6 +24,7 @@ FORMAT = "distortion-workbench figure"
 VERSION = 1
 MOST_MAPS = 64
 MOST_PANELS = 120
+MOST_GLYPHS = 10_000
 MOST_STEPS = 100_000
 LARGEST_TEXT = 2**25
 LONGEST_CAPTION = 300
@@ -84,8 +86,13 @@ def plain_of(recipe: Recipe) -> dict[str, Any]:
         "version": VERSION,
         "page": differing(recipe.page, Page(), tuple(PAGE)),
         "maps": [_plain_map(choice) for choice in recipe.maps],
-        "panels": [{"kind": panel.kind, **differing(panel, Panel(), tuple(PANEL))} for panel in recipe.panels],
+        "panels": [_plain_panel(panel) for panel in recipe.panels],
     }
+
+
+def _plain_panel(panel: Panel) -> dict[str, Any]:
+    plain = {"kind": panel.kind, **differing(panel, Panel(), tuple(name for name in PANEL if name != "look"))}
+    return plain if panel.look is None else plain | {"look": plain_look(panel.look)}
 
 
 def _plain_map(choice: MapChoice) -> dict[str, Any]:
@@ -249,6 +256,10 @@ PANEL: dict[str, schema.Check] = {
     "caption": _caption,
     "edges": schema.flag,
     "anchors": schema.flag,
+    "glyphs": _one_of(GLYPHS),
+    "glyph_count": _whole(1, MOST_GLYPHS),
+    "glyph_size": _within(0.05, 20.0),
+    "look": look_of,
     "quantity": _one_of(tuple(QUANTITIES)),
     "bins": _whole(2, 1000),
     "span": _whole(1, 20),

@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from workbench.app.composing.figure_work import NAME, Subject
 from workbench.app.history import COLUMNS
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS
+from workbench.core.measure import Measure
 from workbench.core.run import HistoryRow
-from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
+from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, Panel, SolidLook
+from workbench.figures.recipe import PATTERNS as FIGURE_PATTERNS
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
@@ -72,7 +74,7 @@ def offers_of(window: MainWindow) -> list[Offer]:
         found.append(Offer(f"{pane.title}, split off: {pane.chooser.currentText()}", panel))
     for dock in window.maps:
         quantity = window.quantities[dock.quantity]
-        bare = Panel("map", (NAME,), edges=edges, caption=" ", bar=True, view=_axes(dock.view))
+        bare = Panel("map", (NAME,), edges=edges, caption=" ", bar=True, view=_axes(dock.view), look=_look(window))
         panel = _coloured(window, dock.range, bare)
         is_shown = any(offer.panel.kind == "map" and offer.panel.scale == panel.scale for offer in found)
         found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible() and not is_shown))
@@ -88,10 +90,30 @@ def offers_of(window: MainWindow) -> list[Offer]:
 def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     """A view with its colours, or its pattern."""
     style = window.colouring.style_of(pane)
-    panel = Panel(kind, (NAME,), caption="Source" if kind == "source" else "Target", edges=edges, view=_axes(pane.view))
+    caption = "Source" if kind == "source" else "Target"
+    panel = Panel(kind, (NAME,), caption=caption, edges=edges, view=_axes(pane.view), look=_look(window))
+    panel = replace(panel, **_glyphs(window, "source" if kind == "source" else "target"))
     if style in PATTERNS:
-        return replace(panel, colour=PLAIN if style == "plain" else CHEQUERED)
+        return replace(panel, colour=style if style in FIGURE_PATTERNS else CHEQUERED)
     return _coloured(window, window.colouring.range_of(pane), replace(panel, bar=True))
+
+
+def _look(window: MainWindow) -> SolidLook | None:
+    """How the window looks into its solid; None where there is none, or nothing but its outside is seen."""
+    volume = window.volume
+    if not volume.is_on or volume.look.is_whole:
+        return None
+    peel_by = window.quantities[volume.peel_by].measure if volume.peel_by in window.quantities else Measure(DEFAULT_MEASURE)
+    marked = tuple(window.brush.simplices.tolist()) if volume.look.only_marked else ()
+    return SolidLook(volume.look, peel_by.text, dict(peel_by.parameters), marked)
+
+
+def _glyphs(window: MainWindow, place: str) -> dict[str, Any]:
+    """The glyphs of the views of source or target."""
+    choice, mesh = window.glyphs.choice, window.document.mesh
+    if mesh is None or choice.kind == NO_GLYPHS or place not in choice.places:
+        return {}
+    return {"glyphs": choice.kind, "glyph_count": window.glyphs.count(mesh), "glyph_size": choice.size}
 
 
 def _axes(view: MeshView) -> tuple[tuple[float, ...], ...]:

@@ -123,12 +123,15 @@ class Glyphs(QObject):
             is_wanted = PLACES[0 if is_source else 1] in self.choice.places
             self._layers[view].show((on_source if is_source else on_target) if is_wanted else None, as_lines=as_lines)
 
+    def count(self, mesh: Mesh) -> int:
+        """Glyphs that a view of a mesh shows, at the most."""
+        return round(min(self.choice.number * USUAL[mesh.dimension], MOST))
+
     def _places_on(self, mesh: Mesh, source: Geometry) -> GlyphPlaces:
         """The places on what is drawn of the source now."""
         if self._places is None or self._faces is not source.faces:
-            count = round(min(self.choice.number * USUAL[mesh.dimension], MOST))
             self._faces = source.faces
-            self._places = GlyphPlaces(mesh, source.points, source.triangles, source.faces.simplices, count)
+            self._places = GlyphPlaces(mesh, source.points, source.triangles, source.faces.simplices, self.count(mesh))
         return self._places
 
     def _can_compute(self) -> bool:

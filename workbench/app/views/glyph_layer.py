@@ -11,18 +11,13 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.theme import Colour
 from workbench.app.views.actors import actor_of, cells, line_actor, mapper_of
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Integers
 from workbench.core.glyph_places import PlacedGlyphs
 from workbench.core.glyph_shapes import ball, ellipses, ellipsoids, stretch_lines
+from workbench.figures.glyph_panel import BODY, EQUAL, LONGER, SHORTER
 
-LONGER: Colour = (0.78, 0.16, 0.12)
-SHORTER: Colour = (0.10, 0.32, 0.80)
-EQUAL: Colour = (0.45, 0.45, 0.45)
-"""Colours of what is stretched, of what is squeezed, and of what keeps its length."""
-BODY: Colour = (0.93, 0.62, 0.30)
 NEARER = 40.0
 """How far lines are put before the triangles that they lie in."""
 WIDTH = 2.0

@@ -1,0 +1,57 @@
+"""What a panel shows of a solid: whole, cut open, peeled, pulled apart, as a window that looks into it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from workbench.core.arrays import Floats
+from workbench.core.measure import Measure
+from workbench.core.solid_look.drawn_faces import MadePoints
+from workbench.core.solid_look.solid import Solid
+from workbench.figures.mesh_pictures import FINER, Frame, Skin, nearness, skin_of
+
+if TYPE_CHECKING:
+    from workbench.figures.figure_maps import FigureMap
+    from workbench.figures.mesh_panel import Scene
+    from workbench.figures.recipe import Panel
+
+VEIL = np.array([0.35, 0.40, 0.46])
+LAYER = 1e-3
+"""How much nearer than what is drawn the veil has to lie, as a part of the depth of the solid."""
+
+
+def seen_of(map: FigureMap, panel: Panel) -> tuple[Skin, MadePoints | None]:
+    """The triangles that a panel shows of a map, and the points that are made for them beside the vertices."""
+    look = panel.look
+    if look is None or map.mesh.dimension != 3:
+        return skin_of(map.mesh), None
+    solid = Solid(map.mesh)
+    values = None if look.shape.threshold is None else map.values(Measure.of(look.peel_by, look.parameters))
+    faces = solid.faces(look.shape, map.positions, values, np.array(look.marked, dtype=np.int64))
+    assert faces.simplices is not None
+    return Skin(faces.triangles, faces.simplices), faces.made
+
+
+def with_made(vertices: Floats, made: MadePoints | None) -> Floats:
+    """Rows (n, c) of the vertices, followed by those of the points that are made of them."""
+    return vertices if made is None else np.concatenate([vertices, made.at(vertices)])
+
+
+def veiled(image: Floats, scene: Scene, part: Frame) -> Floats:
+    """A picture (h, w, 4) with the boundary of a solid as a veil over what lies behind it, where something is gone."""
+    look = scene.panel.look
+    if look is None or not (look.shape.takes_away and look.shape.ghost > 0) or scene.map.mesh.dimension != 3:
+        return image
+    solid = scene.map.mesh.vertices if scene.panel.kind == "source" else scene.map.positions
+    points = solid if scene.turn is None else solid @ scene.turn.T
+    shell = skin_of(scene.map.mesh)
+    before = nearness(points, shell, part) - LAYER * float(np.ptp(points[:, 2]))
+    is_before = before > nearness(scene.points, scene.skin, part)
+    height, width = image.shape[:2]
+    amount = look.shape.ghost * is_before.reshape(height, FINER, width, FINER).mean(axis=(1, 3))
+    below = image[..., 3] * (1.0 - amount)
+    whole = np.maximum(amount + below, 1e-12)
+    colours = (amount[..., None] * VEIL + below[..., None] * image[..., :3]) / whole[..., None]
+    return np.concatenate([colours, (amount + below)[..., None]], axis=2)
