@@ -93,6 +93,16 @@ def drag(desk: Desk, value: int) -> None:
             document.move_anchor(vertex, target + 0.01 * step * (value + 1), dragging=step < 3)
 
 
+def weigh(desk: Desk, value: int) -> None:
+    anchors = desk.document.anchors
+    desk.document.set_anchors(anchors.weighted(anchors.vertices[:1].tolist(), (0.5, 2.0, np.inf)[value % 3]))
+
+
+def switch(desk: Desk, value: int) -> None:
+    anchors = desk.document.anchors
+    desk.document.set_anchors(anchors.switched(anchors.vertices[:2].tolist(), on=bool(value % 2)))
+
+
 def let_go(desk: Desk, value: int) -> None:
     if len(desk.document.anchors):
         desk.document.remove_anchor(int(desk.document.anchors.vertices[0]))
@@ -122,7 +132,8 @@ def redo(desk: Desk, value: int) -> None:
     desk.undoing.redo()
 
 
-DEEDS = st.tuples(st.sampled_from([anchor, drag, let_go, choose, choose_solver, run, reset, undo, redo]), st.integers(0, 9))
+KINDS = (anchor, drag, weigh, switch, let_go, choose, choose_solver, run, reset, undo, redo)
+DEEDS = st.tuples(st.sampled_from(KINDS), st.integers(0, 9))
 
 
 @settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
