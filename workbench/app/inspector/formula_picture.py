@@ -83,6 +83,15 @@ def _ink(latex: str, size: float, ratio: float) -> Ink:
     return np.asarray(MathTextParser("agg").parse(f"${latex}$", dpi=96 * ratio, prop=font).image, dtype=np.uint8)
 
 
+def inked(ink: Ink, colour: QColor) -> QImage:
+    """A drawing in a colour, on nothing."""
+    pixels = np.empty((*ink.shape, 4), np.uint8)
+    pixels[...] = (colour.red(), colour.green(), colour.blue(), 0)
+    pixels[..., 3] = ink
+    height, width = ink.shape
+    return QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
+
+
 class FormulaPicture(QWidget):
     """Shows LaTeX in the colour of the theme; drawn on a thread, anew when the width changes."""
 
@@ -131,15 +140,9 @@ class FormulaPicture(QWidget):
     def _colour(self) -> None:
         if self.drawing is None:
             return
-        ink = self.drawing.ink
-        colour = QColor(self.theme.text)
-        pixels = np.empty((*ink.shape, 4), np.uint8)
-        pixels[...] = (colour.red(), colour.green(), colour.blue(), 0)
-        pixels[..., 3] = ink
-        height, width = ink.shape
-        self._image = QImage(pixels.tobytes(), width, height, 4 * width, QImage.Format.Format_RGBA8888).copy()
+        self._image = inked(self.drawing.ink, QColor(self.theme.text))
         room = round(self.drawing.width * self.drawing.ratio)
-        if width > room:
+        if self._image.width() > room:
             self._image = self._image.scaledToWidth(room, Qt.TransformationMode.SmoothTransformation)
         self._image.setDevicePixelRatio(self.drawing.ratio)
         self.setFixedHeight(max(round(self._image.height() / self.drawing.ratio) + 18, 56))
