@@ -43,6 +43,7 @@ TEXTS: dict[str, ActionText] = {
     "box": ActionText("Anchor a &box", ("B",), "Anchor the vertices in a box that you drag, as one group (B)"),
     "lasso": ActionText("Anchor a &lasso", ("L",), "Anchor the vertices in a lasso that you draw, as one group (L)"),
     "select-all": ActionText("Select &all anchors", ("Ctrl+A",), "Select every anchor"),
+    "select-none": ActionText("Select &no anchor", (), "Nothing is selected any longer"),
     "select-box": ActionText("Select a &box", ("Shift+B",), "Select the anchors in a box; Shift adds, Ctrl takes away"),
     "select-lasso": ActionText("Select a &lasso", ("Shift+L",), "Select the anchors in a lasso; Shift adds, Ctrl takes away"),
     "through": ActionText("Also what is &hidden", (), "Boxes and lassos take what the solid hides, too", checkable=True),

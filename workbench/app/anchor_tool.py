@@ -128,6 +128,7 @@ class AnchorTool(NavigationTool):
             self._take(hold_of(self.view, scene.gizmo, handle, pixel))
             return
         if self.area.takes(event):
+            self.hovered.emit(-1)
             self.area.press(event)
             return
         vertex = self.view.anchor_at(pixel)

@@ -146,7 +146,9 @@ class AreaDrawing(QObject):
             found = np.flatnonzero(in_outline(pixels[: geometry.vertex_count], outline))
         if mode.through or geometry.is_flat:
             return found
-        return visible_points(found, pixels, heights, geometry.triangles)
+        is_drawn = np.zeros(len(pixels), dtype=bool)
+        is_drawn[geometry.triangles] = True  # what lies inside a solid is not seen
+        return visible_points(found[is_drawn[found]], pixels, heights, geometry.triangles)
 
     # ------------------------------------------------------------------------------------------ keys and words
 

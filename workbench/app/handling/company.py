@@ -148,6 +148,9 @@ class Company(QObject):
         if len(made) and positions is not None:
             anchors = anchors.joined(AnchorSet.at(made, positions))
             anchors = anchors.grouped(made) if len(made) > 1 else anchors
+            for vertex, twin in zip(held.tolist(), found.tolist(), strict=True):
+                if twin in made and vertex in anchors.weights:  # soft as what it mirrors
+                    anchors = anchors.weighted([twin], anchors.weights[vertex])
         away = self._distances(held) if customs.has_falloff else None
         away_twins = self._distances(twins) if customs.has_falloff and len(twins) else None
         missing = int(np.count_nonzero(found < 0))

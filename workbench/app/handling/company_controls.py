@@ -98,7 +98,7 @@ class CompanyControls(QObject):
 
     def _show(self) -> None:
         customs = self._company.customs
-        self._window.settings.save_handling(asdict(customs))
+        self._window.settings.save_handling({**self._window.settings.handling(), **asdict(customs)})
         self._actions["mirror"].setChecked(bool(customs.mirror))
         self._actions["mirror"].setText(f"&Mirror {NAMES[customs.mirror]}" if customs.mirror else "&Mirror")
         for name, plane in PLANES.items():

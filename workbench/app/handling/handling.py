@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 NOTHING_SELECTED = "No anchor is selected: click one, with Shift more of them, or draw a lasso round them (Shift+L)."
 
 MENUS = (
-    ("&Select anchors", ("select-all", "select-box", "select-lasso", "through", "", "group", "ungroup")),
+    ("&Select anchors", ("select-all", "select-none", "select-box", "select-lasso", "through", "", "group", "ungroup")),
     ("&Pin", ("pin", "pin-loop", "pin-path", "box", "lasso")),
     ("&Move anchors", ("move", "turn", "scale")),
 )
@@ -40,12 +40,15 @@ class Handling(QObject):
         self.company = CompanyControls(window, self._tools)
         self._mode = AreaMode()
         self._through = window.actions_by_name["through"]
+        self._mode.through = window.settings.handling().get("through") is True
+        self._through.setChecked(self._mode.through)
         deeds = {
             "box": lambda: self.arm("box", "anchor"),
             "lasso": lambda: self.arm("lasso", "anchor"),
             "select-box": lambda: self.arm("box", "select"),
             "select-lasso": lambda: self.arm("lasso", "select"),
             "select-all": lambda: self._document.select_all(self._document.anchors.targets),
+            "select-none": lambda: self._document.select_all(()),
             "through": self._set_through,
             "group": self.group,
             "ungroup": self._desk.split_selected,
@@ -86,6 +89,7 @@ class Handling(QObject):
 
     def _show_mode(self) -> None:
         self._through.setChecked(self._mode.through)
+        self._window.settings.save_handling({**self._window.settings.handling(), "through": self._mode.through})
         armed = [tool for tool in self._tools if tool.area.is_armed]
         for tool in armed:
             tool.area.show_hint()
