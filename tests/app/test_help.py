@@ -13,7 +13,7 @@ import pytest
 from PySide6.QtCore import QEvent, Qt, QUrl
 from PySide6.QtGui import QDesktopServices, QTextDocument
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from workbench.app.help.chapters import cut_into_chapters, read_chapters, with_fences
@@ -142,3 +142,16 @@ def test_the_wheel_takes_the_readme_and_its_pictures_along(project_root: Path) -
     assert wheel["sources"]["assets"] == "workbench/assets"
     pictures = {p.relative_to(project_root).as_posix() for p in (project_root / "assets").rglob("*.png")}
     assert pictures and not any(fnmatch(name, pattern) for name in pictures for pattern in wheel["exclude"])
+
+
+def test_f1_in_a_dialog_opens_its_chapter(window: MainWindow, qtbot: QtBot) -> None:
+    window.commands.ask_save()
+    dialog = window.findChildren(QFileDialog)[-1]
+    qtbot.waitUntil(lambda: QApplication.focusWidget() is not None and QApplication.focusWidget().window() is dialog)
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_F1)
+    qtbot.waitUntil(lambda: window.help.help is not None and window.help.help.isVisible())
+    assert window.help.help.title == "Files"
+    window.help.help.close()
+    dialog.close()
+    window.activateWindow()
+    QTest.qWaitForWindowActive(window)

@@ -139,7 +139,7 @@ class MainWindow(QMainWindow):
         self._finder = MethodFinder(self)
         self._finder.found.connect(self._methods_found)
         self._finder.failed.connect(self.reporter.show_exception)
-        self._finder.start()
+        self._finder.start_after(self.document.snapshot_taken)
 
     @property
     def theme(self) -> Theme:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Any
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 
 from workbench.app.background import Background
 from workbench.core.errors import WorkbenchError
+from workbench.session.session import Session
 
+PATIENCE = 800
+"""Milliseconds that the methods wait for the first map: both take the interpreter, and a map shows more than a list."""
 PAUSE = 1500
-"""Milliseconds from the list of methods to the work on their formulas: the first map comes in between."""
+"""Milliseconds from the list of methods to the work on their formulas."""
 
 
 class MethodFinder(QObject):
@@ -25,11 +28,18 @@ class MethodFinder(QObject):
         self._search = Background(find_methods, self)
         self._search.finished.connect(self._take)
         self._search.failed.connect(self.failed)
+        self._has_begun = False
         self._preparation: Background | None = None
 
-    def start(self) -> None:
-        """Look for them when the event loop is idle for the first time."""
-        QTimer.singleShot(0, self, self._search.start)
+    def start_after(self, first_map: SignalInstance) -> None:
+        """Look for them when there is a first map, or none comes."""
+        first_map.connect(self._begin)
+        QTimer.singleShot(PATIENCE, self, self._begin)
+
+    def _begin(self) -> None:
+        if not self._has_begun:
+            self._has_begun = True
+            QTimer.singleShot(0, self, self._search.start)
 
     def wait(self) -> None:
         """Let the threads end before the window does."""
@@ -48,7 +58,10 @@ def find_methods() -> Any:
     """Every method that there is now."""
     from workbench.core.registry import registry
 
-    return registry()
+    found = registry()
+    with suppress(WorkbenchError, KeyError):  # the first one that is shown: its kernel is loaded here
+        found.distortions[Session().distortion].compiled(2)
+    return found
 
 
 def prepare_formulas(registry: Any) -> None:

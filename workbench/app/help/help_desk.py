@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ CHAPTER_OF = {
 }
 """Class of a widget -> the chapter about it."""
 AT_FIRST = "The first minute"
+SERVED = "has-help-key"
 
 
 class HelpDesk(QObject):
@@ -37,7 +38,10 @@ class HelpDesk(QObject):
         super().__init__(window)
         self._window = window
         self.help: HelpWindow | None = None
-        QApplication.instance().installEventFilter(self)  # type: ignore[union-attr]
+        application = QApplication.instance()
+        assert isinstance(application, QApplication)
+        self._application = application
+        application.focusChanged.connect(self._serve)
 
     def show(self, chapter: str = "") -> None:
         """Open the help at a chapter; at that of the widget in use where none is named."""
@@ -52,19 +56,17 @@ class HelpDesk(QObject):
         self.help.activateWindow()
 
     def close(self) -> None:
-        """The window goes: keys are nobody's here any longer."""
-        QApplication.instance().removeEventFilter(self)  # type: ignore[union-attr]
+        """The window goes."""
+        self._application.focusChanged.disconnect(self._serve)
         if self.help is not None:
             self.help.close()
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() != QEvent.Type.KeyPress or not isinstance(event, QKeyEvent) or event.key() != Qt.Key.Key_F1:
-            return False
-        active = QApplication.activeWindow()
-        if not isinstance(active, QDialog) or active is self.help or not isinstance(watched, QWidget):
-            return False  # in the main window F1 is an action's
-        self.show(chapter_of(watched))
-        return True
+    def _serve(self, _: QWidget | None, now: QWidget | None) -> None:
+        """Give a dialog that comes to the front the key; in the main window it is an action's."""
+        dialog = now.window() if now is not None else None
+        if isinstance(dialog, QDialog) and dialog is not self.help and not dialog.property(SERVED):
+            dialog.setProperty(SERVED, True)
+            QShortcut(QKeySequence.StandardKey.HelpContents, dialog).activated.connect(self.show)
 
 
 def chapter_of(widget: QWidget | None) -> str:
