@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
 from workbench.app.colouring import Colouring
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.document import Document
 from workbench.app.handling.gizmo import gizmo_of
+from workbench.app.one_shot import one_shot
 from workbench.app.panel_turns import SOON, PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.splitting.split_pane import SplitPane
@@ -62,7 +62,7 @@ class Presenter(QObject):
         self._faces: DrawnFaces | None = None
         self._hovered = -1
         self._fits_next = False
-        self._late_marks = self._timer(MARKS_WAIT, self._draw_marks)
+        self._late_marks = one_shot(self, MARKS_WAIT, self._draw_marks)
         self.target.drawn.connect(turns.main_is_drawn)
         turns.add(self.source, self._draw_source, self._source_cost)
         document.opened.connect(self._show_mesh)
@@ -72,19 +72,11 @@ class Presenter(QObject):
         document.selection_changed.connect(self._anchors_changed)
         brush.changed.connect(self._show_brush)
         # slider moves that came while a picture was drawn become one; the large views are painted each in a pass of its own
-        self._late_look, self._late_source = self._timer(0, self._look_again), self._timer(SOON, self._draw_source)
+        self._late_look, self._late_source = one_shot(self, 0, self._look_again), one_shot(self, SOON, self._draw_source)
         volume.changed.connect(self._late_look.start)
         for dock in maps:
             turns.add(dock.view, partial(self._draw_map, dock), dock.cost)
         self.clear()
-
-    def _timer(self, milliseconds: int, deed: Callable[[], None]) -> QTimer:
-        """Does a deed once, so long after it was started last."""
-        timer = QTimer(self)
-        timer.setSingleShot(True)
-        timer.setInterval(milliseconds)
-        timer.timeout.connect(deed)
-        return timer
 
     # ------------------------------------------------------------------------------------------ meshes
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QToolButton, QVBoxLayout, QWidget
 
@@ -17,6 +17,7 @@ from workbench.app.anchors.anchor_table_model import AnchorTableModel
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.document import Document
 from workbench.app.error_bar import ErrorBar
+from workbench.app.one_shot import one_shot
 from workbench.core.arrays import Integers
 from workbench.core.errors import WorkbenchError
 
@@ -42,8 +43,8 @@ class AnchorDock(QDockWidget):
         self.summary = QLabel(self)
         self.summary.setObjectName("citation")
         self._make_body(actions)
-        self._later = self._timer(LIVE, self._show_residuals)
-        self._soon = self._timer(0, self._show_anchors)
+        self._later = one_shot(self, LIVE, self._show_residuals)
+        self._soon = one_shot(self, 0, self._show_anchors)
         self.model.edited.connect(self._edit)
         self.model.modelReset.connect(self._show_choice)  # rows have moved, the table has forgotten which were selected
         self.table.chosen.connect(self._tell_choice)
@@ -55,13 +56,6 @@ class AnchorDock(QDockWidget):
         document.selection_changed.connect(self._show_choice)
         document.snapshot_taken.connect(lambda: self._later.isActive() or self._later.start())
         self._show_mesh()
-
-    def _timer(self, milliseconds: int, deed: Callable[[], None]) -> QTimer:
-        timer = QTimer(self)
-        timer.setSingleShot(True)
-        timer.setInterval(milliseconds)
-        timer.timeout.connect(deed)
-        return timer
 
     def _make_body(self, actions: tuple[QAction, ...]) -> None:
         body = QWidget(self)
