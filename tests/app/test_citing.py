@@ -35,6 +35,5 @@ def test_choices_are_cited_copied_and_saved(window: MainWindow, qtbot: QtBot, tm
     document.choose(solver="aqp")
     again = shown(window)  # the dialog of before gives way to a new one
     assert "{KGL16," in again and "{RPPSH17," not in again
-    assert citing.dialog.methods.text().count(":") >= 3
     citing.dialog.reject()
     assert citing.dialog is None

@@ -193,7 +193,7 @@ class _Writer:
             if count > MOST_INLINE:
                 parts = [f"{column}={self.array(f'{name}_{column}', values)}" for column, values in given.items()]
             else:
-                parts = [f"{column}=np.array({literal(list(values))})" for column, values in given.items()]
+                parts = [f"{column}=np.array({_rows(values)})" for column, values in given.items()]
             self.definitions.append(_call(f"{name} = Anchors", parts))
         return self.held[key]
 
@@ -213,6 +213,13 @@ class _Writer:
         return _call("result = solve", ["source", distortion, *(f"{name}={value}" for name, value in given.items())])
 
 
+def _rows(values: tuple[Any, ...]) -> str:
+    """A list, a row a line where its members are rows and there are some."""
+    if len(values) < 4 or not isinstance(values[0], tuple):
+        return literal(list(values))
+    return "[\n" + "".join(f"        {literal(row)},\n" for row in values) + "    ]"
+
+
 def _named_values(values: Mapping[str, Any]) -> str:
     """Values as arguments by name, or as an unpacked literal where a name is none in Python."""
     if all(name.isidentifier() and name.isascii() and not keyword.iskeyword(name) for name in values):
@@ -222,4 +229,6 @@ def _named_values(values: Mapping[str, Any]) -> str:
 
 def _call(head: str, arguments: list[str]) -> str:
     line = f"{head}({', '.join(arguments)})"
-    return line if len(line) <= WIDTH else f"{head}(\n" + "".join(f"    {argument},\n" for argument in arguments) + ")"
+    if len(line) <= WIDTH and "\n" not in line:
+        return line
+    return f"{head}(\n" + "".join(f"    {argument},\n" for argument in arguments) + ")"

@@ -9,15 +9,19 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QFontDatabase, QGuiApplication
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
-from workbench.core.bibliography import SURVEY, Cited, bibtex
+from workbench.core.bibliography import Cited, bibtex
 
+EXPLANATION = (
+    "The survey that this program follows, and what the distortions, solvers and the start of this session are taken from: "
+    "those that are chosen now, and those that led to the map."
+)
 FILTER = "BibTeX (*.bib)"
 Buttons = QDialogButtonBox.StandardButton
 Role = QDialogButtonBox.ButtonRole
 
 
 class CitationDialog(QDialog):
-    """The methods with their keys above, their entries below; `save_wanted` carries a place."""
+    """What each method is taken from, then the entries, to be read and copied; `save_wanted` carries a place."""
 
     save_wanted = Signal(str)
 
@@ -25,9 +29,8 @@ class CitationDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Cite what this session uses")
         self._place = str(Path(folder) / f"{stem}.bib")
-        self.methods = QLabel(_listed(methods), self)
-        self.methods.setTextFormat(Qt.TextFormat.PlainText)
-        self.methods.setWordWrap(True)
+        explanation = QLabel(EXPLANATION, self)
+        explanation.setWordWrap(True)
         self.text = QPlainTextEdit(bibtex(methods), self)
         self.text.setReadOnly(True)
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
@@ -39,7 +42,7 @@ class CitationDialog(QDialog):
         buttons.addButton("&Save as .bib…", Role.ActionRole).clicked.connect(self._ask_save)
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
-        for part in (self.methods, self.text, buttons):
+        for part in (explanation, self.text, buttons):
             layout.addWidget(part)
         layout.setStretchFactor(self.text, 1)
 
@@ -55,9 +58,3 @@ class CitationDialog(QDialog):
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.fileSelected.connect(self.save_wanted)
         dialog.open()
-
-
-def _listed(methods: Sequence[Cited]) -> str:
-    """A line a method, the survey first; keys as the entries have them."""
-    lines = [f"The survey that this program follows: {SURVEY}"]
-    return "\n".join([*lines, *(f"{item.label}: {', '.join(item.keys) or 'no source'}" for item in methods)])
