@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from workbench.figures.presets import PRESETS
@@ -53,4 +54,23 @@ def test_what_cannot_be_is_refused_and_nothing_is_written(cli, tmp_path, argumen
     done = cli("figure", *arguments, "--out", tmp_path / "out")
     assert done.status == 2
     assert words in done.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_solver_that_fails_is_no_bad_recipe(cli, tmp_path):
+    assert cli("solve", "sample:bar", "--iterations", 0, "--out", tmp_path / "map.npz", "--quiet").status == 0
+    with np.load(tmp_path / "map.npz") as file:
+        arrays = dict(file)
+    arrays["X"][0] += 3.0  # the triangles round it are turned over, and the distortion is a barrier
+    np.savez(tmp_path / "folded.npz", **arrays)
+    recipe = {
+        "format": "distortion-workbench figure",
+        "version": 1,
+        "maps": [{"name": "a", "source": "sample:bar", "initializer": "file", "start_file": "folded.npz"}],
+        "panels": [{"kind": "map", "maps": ["a"]}],
+    }
+    (tmp_path / "recipe.json").write_text(json.dumps(recipe))
+    done = cli("figure", tmp_path / "recipe.json", "--out", tmp_path / "out")
+    assert done.status == 1
+    assert "Map a: The solver failed: Inverted start" in done.err
     assert not (tmp_path / "out").exists()

@@ -11,10 +11,13 @@ import pytest
 
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import Measure
+from workbench.core.solid_look.look import VolumeLook
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
+from workbench.figures.mesh_panel import scene_of
+from workbench.figures.mesh_pictures import TEXTURE
 from workbench.figures.page_layout import Cell, lay_out
-from workbench.figures.recipe import CHEQUERED, MapChoice, Page, Panel, Recipe
+from workbench.figures.recipe import CHEQUERED, MapChoice, Page, Panel, Recipe, SolidLook
 from workbench.figures.save import save_figure
 from workbench.session.session import Session
 
@@ -194,3 +197,81 @@ def test_words_of_neighbours_keep_apart(maps):
     assert len(boxes) >= 8
     assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
     assert all(box.x0 >= -1 and box.x1 <= found.bbox.width + 1 for box in boxes)
+
+
+def glyphs_in(svg: str) -> int:
+    """Paths of the glyphs of an SVG."""
+    return sum(part.count("<path ") for part in re.findall(r'<g id="glyphs">(.*?)</g>', svg, re.DOTALL))
+
+
+@pytest.mark.parametrize(("glyphs", "each"), [("stretches", 4), ("ellipses", 1)])  # a line an axis, white and in colour
+def test_glyphs_are_vectors_at_as_many_places_as_are_asked_for(maps, tmp_path, glyphs, each):
+    bare = figure_of(maps, Panel(maps=("pulled",)))
+    save_figure(bare.figure, tmp_path / "bare.svg", 72)
+    found = figure_of(maps, Panel(maps=("pulled",), glyphs=glyphs, glyph_count=20))
+    save_figure(found.figure, tmp_path / "glyphs.svg", 72)
+    text = (tmp_path / "glyphs.svg").read_text()
+    assert glyphs_in((tmp_path / "bare.svg").read_text()) == 0
+    assert 10 * each <= glyphs_in(text) <= 20 * each
+    assert paths_in(text) == paths_in((tmp_path / "bare.svg").read_text())
+
+
+def test_ellipses_at_rest_are_circles_and_balls_seen_from_anywhere_too(maps):
+    for name in ("rest", "solid"):
+        found = figure_of(maps, Panel(maps=(name,), glyphs="ellipses", glyph_count=12))
+        (rings,) = (item for item in found.figure.axes[0].collections if item.get_gid() == "glyphs")
+        outlines = [path.vertices[:-1] for path in rings.get_paths()]
+        assert outlines
+        for outline in outlines:
+            radii = np.linalg.norm(outline - outline.mean(axis=0), axis=1)
+            np.testing.assert_allclose(radii, radii[0], rtol=1e-6)
+
+
+def test_glyphs_of_a_solid_that_are_hidden_are_not_drawn(maps):
+    panel = Panel(maps=("solid",), glyphs="stretches", glyph_count=200, view=((1, 0, 0), (0, 1, 0), (0, 0, 1)))
+    found = figure_of(maps, panel)
+    core = [item for item in found.figure.axes[0].collections if item.get_gid() == "glyphs"][-1]
+    assert 0 < len(core.get_paths()) < 3 * 100, "those of one side of six"
+
+
+def test_a_solid_is_drawn_as_it_is_looked_into(maps):
+    solid = maps["solid"]
+
+    def drawn(**shape):
+        scene = scene_of(solid, Panel(maps=("solid",), look=SolidLook(VolumeLook(**shape), marked=(3, 5))))
+        return scene, scene.points[np.unique(scene.skin.triangles)] @ np.linalg.inv(scene.turn.T)
+
+    whole, _ = drawn()
+    _, points = drawn(is_cut=True, is_exact=True, normal=(1.0, 0.0, 0.0), place=0.25)
+    length = np.ptp(solid.positions[:, 0])
+    assert points[:, 0].max() == pytest.approx(solid.positions[:, 0].min() + 0.25 * length)
+    marked, _ = drawn(only_marked=True)
+    assert set(marked.skin.simplex) == {3, 5}
+    apart, _ = drawn(spread=0.5)
+    assert len(apart.skin.triangles) == 4 * solid.mesh.simplex_count
+    peeled = scene_of(solid, Panel(maps=("solid",), look=SolidLook(VolumeLook(threshold=2.0), peel_by="det")))
+    assert not len(peeled.skin.triangles), "at rest every determinant is 1"
+    assert len(whole.skin.triangles) == len(solid.mesh.topology.boundary_facets)
+
+
+def test_what_is_cut_away_is_left_as_a_veil(maps):
+    def corner(ghost):
+        look = SolidLook(VolumeLook(is_cut=True, normal=(1.0, 0.0, 0.0), place=0.25, ghost=ghost))
+        found = figure_of(maps, Panel(maps=("solid",), look=look, view=((1, 0, 0), (0, 1, 0), (0, 0, 1)), caption=" "))
+        (image,) = found.figure.axes[0].images
+        picture = np.asarray(image.get_array())
+        return picture[picture.shape[0] // 2, round(0.8 * picture.shape[1])]
+
+    assert corner(0.0)[3] == 0.0
+    assert corner(0.3)[3] == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("pattern", ["grid", "circles", "stripes"])
+def test_other_textures_are_pictures_of_two_colours(maps, pattern):
+    found = figure_of(maps, Panel("source", ("pulled",), pattern), dpi=400)
+    (image,) = found.figure.axes[0].images
+    picture = np.asarray(image.get_array())
+    inside = picture[picture[..., 3] == 1.0][:, :3]
+    dark = np.linalg.norm(inside - TEXTURE[1], axis=1) < 0.05
+    light = np.linalg.norm(inside - TEXTURE[0], axis=1) < 0.05
+    assert 0.05 < dark.mean() < 0.7 and 0.2 < light.mean() < 0.95

@@ -57,6 +57,13 @@ def test_files_are_named_from_where_the_recipe_is(tmp_path):
         ({"panels": [{"maps": ["a"], "scale": "s"}, {"maps": ["a"], "scale": "s", "colour": "det"}]}, "share"),
         ({"panels": [{"maps": ["a"], "view": [[1, 0, 0], [0, 1, 0], [0, 1, 0]]}]}, "right angles"),
         ({"panels": [{"maps": ["a"], "view": [[1, 0], [0, 1]]}]}, "right angles"),
+        ({"panels": [{"maps": ["a"], "glyphs": "hedgehogs"}]}, "stretches"),
+        ({"panels": [{"maps": ["a"], "glyph_count": 10**9}]}, "glyph_count"),
+        ({"panels": [{"maps": ["a"], "look": 3}]}, "an object"),
+        ({"panels": [{"maps": ["a"], "look": {"normal": [1, 1, 0]}}]}, "length 1"),
+        ({"panels": [{"maps": ["a"], "look": {"normal": [1]}}]}, "normal"),
+        ({"panels": [{"maps": ["a"], "look": {"place": "half"}}]}, "place"),
+        ({"panels": [{"maps": ["a"], "look": {"script": "x"}}]}, "'script'"),
         ({"page": {"width": 1e9}}, "width"),
         ({"page": {"width": 2000, "dpi": 2400}}, "too large"),
         ({"page": {"background": "url(x)"}}, "background"),
@@ -108,3 +115,12 @@ def test_what_is_no_history_is_refused(text, tmp_path):
     (tmp_path / "history.csv").write_text(text)
     with pytest.raises(WorkbenchError, match=r"history\.csv"):
         read_history(tmp_path / "history.csv")
+
+
+def test_a_look_into_a_solid_is_read_as_it_was_written():
+    panel = {
+        "kind": "map",
+        "maps": ["a"],
+        "look": {"is_cut": True, "normal": [0.0, 0.6, 0.8], "place": 0.3, "peel_by": "det", "threshold": 0.5, "marked": [1, 4]},
+    }
+    assert plain_of(recipe_of(plain(panels=[panel])))["panels"] == [panel]

@@ -29,11 +29,11 @@ from workbench.cli import (
     solve,
 )
 from workbench.cli.output import full_sentence
-from workbench.core.errors import WorkbenchError
+from workbench.core.errors import SolverFailure, WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
 EPILOG = "`workbench FILE` opens the window on a mesh; `workbench COMMAND --help` explains a command."
-BAD_INPUT = 2
+RUN_FAILED, BAD_INPUT = 1, 2
 
 COMMANDS = {
     "open": open_window,
@@ -72,6 +72,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return exit.code if isinstance(exit.code, int) else BAD_INPUT
     try:
         return int(options.run(options))
+    except SolverFailure as error:
+        _refuse(full_sentence(error))
+        return RUN_FAILED
     except WorkbenchError as error:
         return _refuse(full_sentence(error))
     except KeyboardInterrupt:

@@ -29,6 +29,10 @@ class MeshError(WorkbenchError):
     """A mesh or a mesh file that cannot be used as it is."""
 
 
+class SolverFailure(WorkbenchError):
+    """A run that failed on an input that is in order, where its map was needed for more."""
+
+
 class FormulaError(WorkbenchError):
     """A formula that is refused; `position` is the column (from 0) in the text where the fault is."""
 

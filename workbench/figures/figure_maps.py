@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
-from workbench.core.errors import WorkbenchError
+from workbench.core.errors import SolverFailure, WorkbenchError
 from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
@@ -80,7 +80,8 @@ def make_maps(
             run = [item for item in choices if not item.target and _is_same_run(item, choice)]
             found |= _solved(run, opened[key], interrupt)
         except WorkbenchError as error:
-            raise WorkbenchError(f"Map {choice.name}: {error.sentence}", fixes=error.fixes) from error
+            kind = SolverFailure if isinstance(error, SolverFailure) else WorkbenchError
+            raise kind(f"Map {choice.name}: {error.sentence}", fixes=error.fixes) from error
     return found
 
 
@@ -111,7 +112,7 @@ def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Inter
     if interrupt():
         raise WorkbenchError("The figure was interrupted; nothing was written.")
     if result.state.status.is_failure:
-        raise WorkbenchError(f"The solver failed: {result.state.status.value}")
+        raise SolverFailure(f"The solver failed: {result.state.status.value}")
     return {
         choice.name: FigureMap(
             choice.title,

@@ -22,7 +22,7 @@ FINER = 2
 SQUARES = 14
 """Of the chequered texture along the side of a square as large as the source."""
 TEXTURE = ((0.96, 0.95, 0.92), (0.20, 0.38, 0.58))
-LINE = 0.08
+LINE = 0.12
 """Width of the lines of a grid, in its cells."""
 RINGS = (0.18, 0.38, 0.45)
 """Radii of a disc, and of the ring round it, of circles."""
