@@ -20,6 +20,7 @@ from workbench.engine.priority import give_way
 from workbench.engine.service import Inbox
 from workbench.engine.shared_positions import PositionRing
 
+FIRST_START = "First start: kernels are being compiled for this machine, about half a minute; later starts find them ready …"
 PUBLISH_INTERVAL = 0.004
 """Seconds; quicker maps than this are not worth a message unless they are news of an anchor or of the end."""
 NAP = 0.010
@@ -94,7 +95,7 @@ def engine_main(
     loop = EngineLoop(publisher, inbox.is_urgent, corrector)
 
     def begin() -> None:
-        warm_up(lambda: publisher(Progress("Compiling the kernels, once for good …")))
+        warm_up(lambda: publisher(Progress(FIRST_START)))
         publisher(Ready(time.time() - spawned_at))
         prepare(ahead)
 
