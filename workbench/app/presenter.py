@@ -256,7 +256,6 @@ class Presenter(QObject):
         surface, geometry = self.source.surface, self._target_geometry
         if surface is None or geometry is None:
             return
-        surface.set_texture_positions(geometry.points)
         self._colouring.paint(self._panes[0])
         self.source.refresh()
 

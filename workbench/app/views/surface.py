@@ -168,10 +168,6 @@ class Surface:
     def has_texture(self) -> bool:
         return self._texture is not None
 
-    def set_texture_positions(self, _: Any) -> None:
-        """Lay the texture where its points are now."""
-        self.lay_texture()
-
     def lay_texture(self) -> None:
         """Lay the texture where its points are now."""
         texture, places = self._texture, self._texture_points
