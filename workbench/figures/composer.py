@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -67,6 +67,17 @@ def title_of(measure: Measure) -> str:
     values = ", ".join(f"{name} = {value:g}" for name, value in measure.parameters)
     words = f"{known.label} {equation.group() if equation else ''}".strip()
     return f"{words}, {values}" if values else words
+
+
+def paint_of(panels: Sequence[Panel], parts: Sequence[Floats]) -> ScalarMappable:
+    """The colours that panels share, for values in several `parts` (k,) of which those that are not finite do not count."""
+    values = np.concatenate([part[np.isfinite(part)] for part in parts])
+    limits = next((panel.range for panel in panels if panel.range is not None), None)
+    logarithmic = next((panel.logarithmic for panel in panels if panel.logarithmic is not None), None)
+    is_centred = panels[0].colour in CENTRED
+    scale = centred_scale(values, 1.0, limits, logarithmic) if is_centred else colour_scale(values, limits, logarithmic)
+    is_reversed, is_clipped = any(panel.reversed for panel in panels), any(panel.clipped for panel in panels)
+    return in_the_way_of(scale, is_reversed=is_reversed, is_clipped=is_clipped)
 
 
 def measure_of(panel: Panel) -> Measure:
@@ -148,14 +159,7 @@ class _Composer:
 
     def _paint(self, members: list[int]) -> ScalarMappable:
         upright = [self.values[index][~self.scenes[index].inverted] for index in members]
-        values = np.concatenate([part[np.isfinite(part)] for part in upright])
-        panels = [self.recipe.panels[index] for index in members]
-        limits = next((panel.range for panel in panels if panel.range is not None), None)
-        logarithmic = next((panel.logarithmic for panel in panels if panel.logarithmic is not None), None)
-        is_centred = panels[0].colour in CENTRED
-        scale = centred_scale(values, 1.0, limits, logarithmic) if is_centred else colour_scale(values, limits, logarithmic)
-        is_reversed, is_clipped = any(panel.reversed for panel in panels), any(panel.clipped for panel in panels)
-        return in_the_way_of(scale, is_reversed=is_reversed, is_clipped=is_clipped)
+        return paint_of([self.recipe.panels[index] for index in members], upright)
 
     # ------------------------------------------------------------------------------------------ drawing
 

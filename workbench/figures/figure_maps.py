@@ -14,12 +14,14 @@ from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
 from workbench.core.run import HistoryRow
+from workbench.core.solid_look.solid import Solid
 from workbench.core.solver import Interrupt, never
 from workbench.core.state import State
 from workbench.core.surface_jacobians import singular_values_of_any
 from workbench.engine.replay import anchors_of, replay
 from workbench.engine.starts import adjusted_start
 from workbench.figures.history_file import read_history
+from workbench.figures.mesh_pictures import Skin, skin_of
 from workbench.figures.recipe import MapChoice
 from workbench.io.opening import OpenedSource, map_from_file, open_source
 from workbench.session.record import SessionRecord
@@ -47,6 +49,20 @@ class FigureMap:
     @cached_property
     def elements(self) -> Elements:
         return build_elements(self.mesh)
+
+    @cached_property
+    def skin(self) -> Skin:
+        return skin_of(self.mesh)
+
+    @cached_property
+    def solid(self) -> Solid:
+        return Solid(self.mesh)
+
+    def moved(self, positions: Floats, anchors: Integers) -> FigureMap:
+        """Another map of the same source; what was made for the source is not made anew."""
+        other = replace(self, positions=positions, anchors=anchors)
+        vars(other).update({name: vars(self)[name] for name in ("elements", "skin", "solid") if name in vars(self)})
+        return other
 
     @cached_property
     def singular_values(self) -> SingularValues:

@@ -110,7 +110,7 @@ def draw_scene(
     if scene.panel.colour in TEXTURES:
         _picture(axes, in_strips(lambda part: veiled(_textured(scene, part), scene, part), frame), frame)
     else:
-        colours = _colours(scene, paint, values)
+        colours = colours_of(scene, paint, values)
         if as_vectors:
             _triangles(axes, scene, colours, size)
         else:
@@ -139,10 +139,12 @@ def frame_in(points: Floats, half: tuple[float, float], width: float, height: fl
     return Frame(centre, (0.5 * width / scale, 0.5 * height / scale), scale / 25.4 * dpi)
 
 
-def _colours(scene: Scene, paint: ScalarMappable | None, values: Floats | None) -> Floats:
-    """(k, 3) of the visible triangles."""
+def colours_of(
+    scene: Scene, paint: ScalarMappable | None, values: Floats | None, plain: tuple[float, float, float] = PLAIN_COLOUR
+) -> Floats:
+    """(k, 3) of the visible triangles: those of their values, or one for all."""
     if paint is None or values is None:
-        colours: Floats = np.tile(np.array(PLAIN_COLOUR), (len(scene.skin.triangles), 1))
+        colours: Floats = np.tile(np.array(plain), (len(scene.skin.triangles), 1))
     else:
         colours = paint.to_rgba(np.clip(values, *_ends(paint)))[:, :3]
     colours[scene.inverted] = INVERTED

@@ -9,7 +9,6 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.measure import Measure
 from workbench.core.solid_look.drawn_faces import MadePoints
-from workbench.core.solid_look.solid import Solid
 from workbench.figures.mesh_pictures import FINER, Frame, Skin, nearness, skin_of
 
 if TYPE_CHECKING:
@@ -26,10 +25,9 @@ def seen_of(map: FigureMap, panel: Panel) -> tuple[Skin, MadePoints | None]:
     """The triangles that a panel shows of a map, and the points that are made for them beside the vertices."""
     look = panel.look
     if look is None or map.mesh.dimension != 3:
-        return skin_of(map.mesh), None
-    solid = Solid(map.mesh)
+        return map.skin, None
     values = None if look.shape.threshold is None else map.values(Measure.of(look.peel_by, look.parameters))
-    faces = solid.faces(look.shape, map.positions, values, np.array(look.marked, dtype=np.int64))
+    faces = map.solid.faces(look.shape, map.positions, values, np.array(look.marked, dtype=np.int64))
     assert faces.simplices is not None
     return Skin(faces.triangles, faces.simplices), faces.made
 
