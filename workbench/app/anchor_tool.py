@@ -72,6 +72,7 @@ class AnchorTool(NavigationTool):
         self._taken_from = np.zeros(3)
         self.area = AreaDrawing(view)
         self.is_picking = self.wheel_is_taken = False
+        self.note = ""
         self._pending: tuple[QPointF, bool, float] | None = None
         self._keys = HoldKeys(self, view.overlay)
         self._keys.axis_pressed.connect(self._lock_axis)
@@ -164,7 +165,8 @@ class AnchorTool(NavigationTool):
         self.taken_up.emit()
 
     def _hint(self, hold: Hold) -> str:
-        return hold.hint() + (" · wheel: how far others follow" if self.wheel_is_taken else "")
+        words = hold.hint() + (" · wheel: how far others follow" if self.wheel_is_taken else "")
+        return f"{words}\n{self.note}" if self.note else words
 
     # ------------------------------------------------------------------------------------------ move
 
@@ -260,6 +262,7 @@ class AnchorTool(NavigationTool):
         self._hold = None
         self._pending = None
         self._clicked_anchor = self._pressed_vertex = -1
+        self.note = ""
         self._throttle.stop()
         self._keys.listen(False)
         scene = self.view.overlay.scene

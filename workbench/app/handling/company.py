@@ -123,11 +123,21 @@ class Company(QObject):
             return None
         if positions.shape[1] == len(plane.normal):
             return plane
-        if self._pairs is None or self._pairs[0] != self.customs.mirror:
-            self._pairs = (self.customs.mirror, self._twins(plane).of(np.arange(mesh.vertex_count)))
-        others = self._pairs[1]
+        others = self._all_twins(plane)
         has_one = np.flatnonzero((others >= 0) & (others != np.arange(len(others))))
         return fitted_reflection(positions[has_one], positions[others[has_one]]) if len(has_one) >= LEAST_PAIRS else None
+
+    def symmetry(self) -> float:
+        """Part of the vertices, in [0, 1], that have a mirror twin."""
+        plane = self.plane
+        return 0.0 if plane is None else float(np.mean(self._all_twins(plane) >= 0))
+
+    def _all_twins(self, plane: Reflection) -> Integers:
+        """(n,) the twin of every vertex, -1 where there is none."""
+        twins = self._twins(plane)
+        if self._pairs is None or self._pairs[0] != self.customs.mirror:
+            self._pairs = (self.customs.mirror, twins.of(np.arange(twins.count)))
+        return self._pairs[1]
 
     def _twins(self, plane: Reflection) -> Twins:
         mesh = self._document.mesh

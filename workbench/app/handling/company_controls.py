@@ -6,7 +6,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QMenu
 
@@ -26,6 +26,8 @@ NAMES = {"x": "x to -x", "y": "y to -y", "z": "z to -z", "found": "as found"}
 MARGIN = 1.08
 """How far lines of symmetry go beyond what is drawn."""
 MOST_CIRCLES = 6
+SYMMETRIC = 0.9
+"""Part of the vertices with a twin below which a source is said to be symmetric in part only."""
 
 
 class CompanyControls(QObject):
@@ -56,6 +58,7 @@ class CompanyControls(QObject):
         """Show it in one more view."""
         tool.wheel_turned.connect(self._desk.widen)
         tool.wheel_is_taken = self._company.customs.has_falloff
+        QTimer.singleShot(0, self, self._show_symmetry)  # the view has nothing to show yet
 
     # ------------------------------------------------------------------------------------------ choices
 
@@ -70,7 +73,11 @@ class CompanyControls(QObject):
             )
             window.status.say(f"There is nothing to mirror here: the source has {what}.")
         elif plane:
-            window.status.say("Mirror: an anchor that is moved takes its mirror twin along, which is made where there is none.")
+            part = self._company.symmetry()
+            words = "an anchor that is moved takes its mirror twin along, which is made where there is none."
+            if part < SYMMETRIC:
+                words += f" Only {part:.0%} of the vertices have a twin."
+            window.status.say(f"Mirror: {words}")
         else:
             window.status.say("Mirror is off.")
 
@@ -80,8 +87,10 @@ class CompanyControls(QObject):
         self._window.status.say(f"Falloff: {words}" if on else "Falloff is off.")
 
     def _say_missed(self, missing: int, count: int) -> None:
-        which = "It has" if count == 1 else f"{missing} of {count} anchors have"
-        self._window.status.say(f"{which} no mirror twin: no vertex lies near the mirror image.")
+        which = "it has" if count == 1 else f"{missing} of {count} anchors have"
+        for tool in self._tools:
+            if tool.is_dragging:
+                tool.note = f"Mirror: {which} no twin, for no vertex lies near the mirror image"
 
     def _recall(self, kept: dict[str, Any]) -> None:
         """The customs of the last time, each where it is one."""

@@ -46,6 +46,7 @@ class Twins:
         self._tree = cKDTree(vertices) if tree is None else tree
         self._vertices = vertices
         self.reflection = reflection
+        self.count = len(vertices)
 
     def of(self, vertices: Integers) -> Integers:
         """(k,) int64: the twin of each of `vertices` (k,), -1 where none is near enough."""
