@@ -118,10 +118,13 @@ def test_maps_become_figures_with_one_scale(dome: Mesh, tmp_path: Path) -> None:
         drawing.save(tmp_path / "maps.json")
 
 
-def test_presets_and_recipes_are_those_of_the_command_line(tmp_path: Path) -> None:
-    arguments = ["figure", "before-after", "--out", str(tmp_path), "--recipe", "--quiet", "--width", "85", "--dpi", "100"]
-    assert main(arguments) == 0
-    figure("before-after", width=85.0, dpi=100).save(tmp_path / "ours.svg")
+def test_presets_and_recipes_are_those_of_the_command_line(square: Mesh, tmp_path: Path) -> None:
+    mesh = str(tmp_path / "square.npz")
+    moved = square.vertices[[0, 48]] + [[0.0, 0.0], [0.4, 0.2]]
+    np.savez(mesh, V=square.vertices, S=square.simplices, anchors=[0, 48], targets=moved)
+    command = ["figure", "before-after", "--mesh", mesh, "--out", str(tmp_path), "--recipe", "--quiet"]
+    assert main([*command, "--width", "85", "--dpi", "100"]) == 0
+    figure("before-after", mesh=mesh, width=85.0, dpi=100).save(tmp_path / "ours.svg")
     assert (tmp_path / "ours.svg").read_bytes() == (tmp_path / "before-after.svg").read_bytes()
     again = figure(tmp_path / "before-after.json")
     again.save(tmp_path / "again.json")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import signal
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -106,7 +107,7 @@ def test_progress_is_one_line_and_only_for_people(square_file: Path, capsys, mon
     monkeypatch.setattr("workbench.notebook.progress.INTERVAL", 0.0)
     solve(square_file, anchors=ANCHORS)
     assert capsys.readouterr().out == ""
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True, raising=False)
+    monkeypatch.setitem(sys.modules, "ipykernel", object())
     solve(square_file, anchors=ANCHORS)
     written = capsys.readouterr().out
     assert "\n" not in written

@@ -18,7 +18,7 @@ SIMPLICES = 60
 def compile_kernels(problem: Problem, solver: Solver) -> None:
     """Steps on a mesh of few simplices of the same dimension, and one of anchors that lag where the problem has anchors."""
     n = problem.dimension
-    with suppress(Exception, SystemExit):  # whatever is wrong will be said of the real problem
+    with suppress(Exception, SystemExit), np.errstate(all="ignore"):  # whatever is wrong will be said of the real problem
         mesh = make_sample("bar" if n == 2 else "bar-3d", SIMPLICES)
         rest = np.ascontiguousarray(mesh.vertices[:, :n])
         small = Problem.create(mesh, "plane" if n == 2 else "volume", problem.distortion)

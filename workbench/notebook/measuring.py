@@ -19,7 +19,7 @@ from workbench.core.quality import measure_map, simplex_table
 from workbench.engine.map_file import open_map
 from workbench.io.measure_text import measure_lines, measure_rows
 from workbench.io.opening import SAMPLE
-from workbench.notebook.pictures import html_table
+from workbench.notebook.pictures import html_lines, html_table
 from workbench.notebook.source import Source, source_of
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class Measured(Mapping[str, Any]):
 
     def _repr_html_(self) -> str:
         _, *below = measure_lines(self.values_by_key)
-        return html_table(measure_rows(self.values_by_key)) + "".join(f"<p>{line}</p>" for line in below)
+        return html_table(measure_rows(self.values_by_key)) + html_lines(below)
 
 
 def measure(

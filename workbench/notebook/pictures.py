@@ -87,11 +87,15 @@ def html_page(png: bytes | None, rows: Iterable[tuple[str, str]], notes: Sequenc
         f'<tr><th style="text-align: left">{html.escape(name)}</th><td style="text-align: left">{html.escape(value)}</td></tr>'
         for name, value in rows
     )
-    below = "".join(f"<p>{html.escape(note)}</p>" for note in notes)
     return (
         '<div style="display: flex; flex-wrap: wrap; gap: 1em; align-items: center">'
-        f"<div>{picture}</div><table>{lines}</table></div>{below}"
+        f"<div>{picture}</div><table>{lines}</table></div>{html_lines(notes)}"
     )
+
+
+def html_lines(lines: Iterable[str]) -> str:
+    """A paragraph a line."""
+    return "".join(f"<p>{html.escape(line)}</p>" for line in lines)
 
 
 def html_table(rows: Sequence[Sequence[str]]) -> str:

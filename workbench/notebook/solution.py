@@ -151,7 +151,9 @@ class Solution(WithPicture):
             ("inverted", str(state.inverted)),
         ]
         if len(anchors.vertices):
-            rows.append(("anchors", f"{len(anchors.vertices)}, off by {number(state.anchor_error, 3)} at most"))
+            is_there = state.anchor_error <= self.problem.anchor_tolerance
+            words = "in place" if is_there else f"off by {number(state.anchor_error, 3)} at most"
+            rows.append(("anchors", f"{len(anchors.vertices)}, {words}"))
         return [*rows, ("seconds", number(self.result.seconds.get("total", 0.0), 3))]
 
     def __repr__(self) -> str:
