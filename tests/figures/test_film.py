@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,14 @@ from PIL import Image, ImageSequence
 
 from tests.app.fake_engine import grid_mesh, solid_mesh
 from workbench.core.errors import WorkbenchError
+from workbench.core.solid_look.look import VolumeLook
 from workbench.figures import film_file
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.film import Film, FilmDrawer, Still
 from workbench.figures.film_file import FilmCancelledError, changed_part, ffmpeg, save_film, stills_of
-from workbench.figures.recipe import CHEQUERED, PLAIN, Panel
+from workbench.figures.film_shading import _ink
+from workbench.figures.mesh_pictures import is_inked
+from workbench.figures.recipe import CHEQUERED, PLAIN, TEXTURES, Panel, SolidLook
 
 MESH = grid_mesh(9, 7)
 MAPS = [MESH.vertices * [1.0 + 0.1 * k, 1.0] for k in range(5)]
@@ -129,6 +133,27 @@ def test_solids_textures_and_grounds() -> None:
         frame = FilmDrawer(film, solid, [still]).draw(still).astype(int)
         assert abs(int(frame[0, 0].max()) - light) < 16
         assert len(np.unique(frame.reshape(-1, 3), axis=0)) > 50
+
+
+@pytest.mark.parametrize("texture", TEXTURES)
+def test_textures_are_those_of_figures(texture: str) -> None:
+    places = np.random.default_rng(2).uniform(-4, 4, (3000, 3))
+    for columns in (2, 3):
+        ours = [_ink(place, TEXTURES.index(texture)) for place in places[:, :columns]]
+        assert np.array_equal(np.array(ours, dtype=bool), is_inked(places[:, :columns], texture))
+        assert 0.05 < np.mean(ours) < 0.95
+
+
+def test_a_solid_is_looked_into_as_the_panel_says() -> None:
+    solid = solid_mesh((4, 2, 2))
+    panel = Panel("map", colour="det", caption="")
+    cut = SolidLook(VolumeLook(only_marked=True), marked=tuple(range(6)))
+    still = Still(lambda: solid.vertices)
+    seen = []
+    for look in (None, cut):
+        frame = FilmDrawer(Film((replace(panel, look=look),), 160, 120), solid, [still]).draw(still)
+        seen.append((frame != 255).any(axis=2).sum())
+    assert 0 < seen[1] < 0.6 * seen[0]
 
 
 @pytest.mark.skipif(not ffmpeg(), reason="there is no ffmpeg here")

@@ -11,16 +11,14 @@ import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
-from workbench.core.jacobians import Elements, build_elements
-from workbench.core.measure import Evaluator, SingularValues
 from workbench.core.mesh import Mesh
-from workbench.core.surface_jacobians import singular_values_of_any
-from workbench.figures.colour_scale import INVERTED, centred_scale, colour_scale, in_the_way_of
-from workbench.figures.composer import CENTRED, measure_of, title_of
+from workbench.figures.colour_scale import INVERTED
+from workbench.figures.composer import measure_of, paint_of, title_of
+from workbench.figures.figure_maps import FigureMap
 from workbench.figures.film_page import GROUNDS, INKS, Box, Cell, FilmPage, make_page
 from workbench.figures.film_shading import Paint, Pixels, draw_triangles
-from workbench.figures.mesh_panel import PLAIN_COLOUR
-from workbench.figures.mesh_pictures import Frame, frame_round, shades, skin_of, texture_square, view_of
+from workbench.figures.mesh_panel import PLAIN_COLOUR, Scene, colours_of, scene_of
+from workbench.figures.mesh_pictures import Frame, frame_round, shades, texture_square
 from workbench.figures.recipe import PLAIN, TEXTURES, Panel
 
 if TYPE_CHECKING:
@@ -102,16 +100,12 @@ class FilmDrawer:
     def __init__(self, film: Film, mesh: Mesh, stills: Sequence[Still], look: Callable[[], None] = lambda: None) -> None:
         film.check(len(stills))
         self.film = film
-        self._mesh = mesh
-        self._skin = skin_of(mesh)
-        self._elements: Elements = build_elements(mesh)
-        self._square = texture_square(mesh, float(self._elements.rest_measures.sum()))
-        self._axes = [self._axes_of(panel, stills[0].positions()) for panel in film.panels]
-        self._evaluators: dict[int, Evaluator] = {
-            i: measure_of(panel).prepare(mesh.dimension) for i, panel in enumerate(film.panels) if panel.has_measure
-        }
+        self._first = FigureMap("", mesh, stills[0].positions(), np.empty(0, np.int64))
+        self._square = texture_square(mesh, float(self._first.elements.rest_measures.sum()))
+        for panel in film.panels:
+            scene_of(self._first, panel)  # makes what all frames share
         frames = self._frames(stills, look)
-        self._scales = self._fitted_scales(stills, look)
+        self._paints = self._fitted_paints(stills, look)
         cells = [self._cell(i, frame) for i, frame in enumerate(frames)]
         self.page: FilmPage = make_page(cells, film.width, film.height, film.ground, film.has_captions)
         self._frames_of = [_filling(frame, box) for frame, box in zip(frames, self.page.boxes, strict=True)]
@@ -134,113 +128,82 @@ class FilmDrawer:
 
     def _cell(self, index: int, frame: Frame) -> Cell:
         panel, aspect = self.film.panels[index], frame.half[1] / frame.half[0]
-        if index not in self._scales or not panel.bar:
+        if index not in self._paints or not panel.bar:
             return Cell(panel.caption.strip(), aspect)
-        return Cell(panel.caption.strip(), aspect, self._scales[index], title_of(measure_of(panel)))
+        return Cell(panel.caption.strip(), aspect, self._paints[index], title_of(measure_of(panel)))
 
     # ------------------------------------------------------------------------------------------ what all frames share
 
-    def _axes_of(self, panel: Panel, positions: Floats) -> Floats | None:
-        """How a panel turns what lies in space."""
-        points = self._mesh.vertices if panel.kind == "source" else positions
-        if points.shape[1] == 2:
-            return None
-        if panel.view:
-            return np.array(panel.view)
-        return view_of(self._mesh if self._mesh.vertices.shape[1] == 3 else Mesh(points, self._mesh.simplices))
-
-    def _points(self, index: int, positions: Floats) -> Floats:
-        points = self._mesh.vertices if self.film.panels[index].kind == "source" else positions
-        axes = self._axes[index]
-        return points if axes is None else points @ axes.T
+    def _map(self, still: Still) -> FigureMap:
+        return self._first.moved(still.positions(), np.array(still.anchors, dtype=np.int64))
 
     def _frames(self, stills: Iterable[Still], look: Callable[[], None]) -> list[Frame]:
-        """About all of the motion, one of each panel; those of maps that are seen alike are alike."""
-        lows: dict[int, Floats] = {}
-        highs: dict[int, Floats] = {}
+        """About all of the motion, one of each panel."""
+        panels = self.film.panels
+        lows: list[Floats] = [np.full(2, np.inf) for _ in panels]
+        highs: list[Floats] = [np.full(2, -np.inf) for _ in panels]
         for number, still in enumerate(stills):
             look()
-            positions = still.positions()
-            for index, panel in enumerate(self.film.panels):
+            moved = self._first.moved(still.positions(), np.empty(0, np.int64))
+            for index, panel in enumerate(panels):
                 if panel.kind == "source" and number:
                     continue
-                places = self._points(index, positions)[:, :2]
-                low, high = (np.array([f(column) for column in places.T]) for f in (np.min, np.max))
-                lows[index] = np.minimum(lows.get(index, low), low)
-                highs[index] = np.maximum(highs.get(index, high), high)
-        return [frame_round(np.stack([lows[index], highs[index]])) for index in range(len(self.film.panels))]
+                # without a cut: all of a solid counts, and the picture stands still whatever is looked at of it
+                places = scene_of(moved, replace(panel, look=None)).points[:, :2]
+                lows[index] = np.minimum(lows[index], [column.min() for column in places.T])
+                highs[index] = np.maximum(highs[index], [column.max() for column in places.T])
+        return [frame_round(np.stack(ends)) for ends in zip(lows, highs, strict=True)]
 
-    def _fitted_scales(self, stills: Sequence[Still], look: Callable[[], None]) -> dict[int, ScalarMappable]:
-        rows = np.unique(np.linspace(0, len(stills) - 1, SAMPLED).astype(int)) if self._evaluators else []
-        found: dict[int, list[Floats]] = {index: [] for index in self._evaluators}
-        for row in rows:
+    def _fitted_paints(self, stills: Sequence[Still], look: Callable[[], None]) -> dict[int, ScalarMappable]:
+        """Of each panel that shows a measure; where the colours are not given they are fitted to frames all over the film."""
+        coloured = [index for index, panel in enumerate(self.film.panels) if panel.has_measure]
+        found: dict[int, list[Floats]] = {index: [] for index in coloured}
+        for row in np.unique(np.linspace(0, len(stills) - 1, SAMPLED).astype(int)) if coloured else []:
             look()
-            values = self._singular_values(stills[row].positions())
-            for index, evaluator in self._evaluators.items():
-                measured = _measured(evaluator, values)
-                found[index].append(measured[np.isfinite(measured) & ~values.inverted])
-        scales = {}
-        for index, parts in found.items():
-            panel = self.film.panels[index]
-            make = (lambda *rest: centred_scale(rest[0], 1.0, *rest[1:])) if panel.colour in CENTRED else colour_scale
-            scale = make(np.concatenate(parts), panel.range, panel.logarithmic)
-            scales[index] = in_the_way_of(scale, is_reversed=panel.reversed, is_clipped=panel.clipped)
-        return scales
-
-    def _singular_values(self, positions: Floats) -> SingularValues:
-        return SingularValues(singular_values_of_any(self._elements, positions))
+            moved = self._map(stills[row])
+            for index in coloured:
+                found[index].append(moved.values(measure_of(self.film.panels[index]))[~moved.singular_values.inverted])
+        return {index: paint_of([self.film.panels[index]], parts) for index, parts in found.items()}
 
     # ------------------------------------------------------------------------------------------ frames
 
     def draw(self, still: Still) -> Pixels:
         """(height, width, 3) uint8"""
-        positions = still.positions()
-        values = self._singular_values(positions)
-        pixels = self.page.pixels.copy()
+        moved, pixels = self._map(still), self.page.pixels.copy()
         for index, box in enumerate(self.page.boxes):
             part = pixels[box.top : box.top + box.height, box.left : box.left + box.width]
             picture = np.ascontiguousarray(part)
-            self._draw_panel(index, positions, values, still, picture)
+            self._draw_panel(index, moved, picture)
             part[:] = picture
         if self.film.has_captions and still.caption:
             _write(pixels, self.page.caption, still.caption, self.page.font_size, INKS[self.film.ground])
         return pixels
 
-    def _draw_panel(self, index: int, positions: Floats, values: SingularValues, still: Still, picture: Pixels) -> None:
-        points, frame, panel = self._points(index, positions), self._frames_of[index], self.film.panels[index]
+    def _draw_panel(self, index: int, moved: FigureMap, picture: Pixels) -> None:
+        frame, panel = self._frames_of[index], self.film.panels[index]
+        scene = scene_of(moved, panel)
         left, _, bottom, _ = frame.extent
-        pixels = np.column_stack([(points[:, :2] - [left, bottom]) * frame.density, points[:, 2:]])
-        inverted = values.inverted[self._skin.simplex]
-        paint = self._paint(index, positions, values)
-        if panel.edges:
-            paint = replace(paint, edge=EDGES[self.is_dark], strength=PLAIN_EDGES if panel.colour == PLAIN else OTHER_EDGES)
-        if points.shape[1] == 3:
-            paint = replace(paint, colours=paint.colours * shades(points, self._skin)[:, None])
-        draw_triangles(pixels, self._skin.triangles, inverted.astype(np.int64), paint, picture)
-        if panel.anchors and still.anchors:
-            chosen = np.array(still.anchors)
-            radius = ANCHOR_SIZE * self.page.font_size * (0.5 if len(chosen) > MANY else 1.0)
-            for x, y in pixels[chosen, :2].tolist():
+        pixels = np.column_stack([(scene.points[:, :2] - [left, bottom]) * frame.density, scene.points[:, 2:]])
+        draw_triangles(pixels, scene.skin.triangles, scene.inverted.astype(np.int64), self._paint(index, scene), picture)
+        if panel.anchors and len(moved.anchors):
+            radius = ANCHOR_SIZE * self.page.font_size * (0.5 if len(moved.anchors) > MANY else 1.0)
+            for x, y in pixels[moved.anchors, :2].tolist():
                 _disc(picture, x, len(picture) - y, radius)
 
-    def _paint(self, index: int, positions: Floats, values: SingularValues) -> Paint:
-        panel, nothing = self.film.panels[index], np.empty((0, 2))
-        count = len(self._skin.triangles)
-        if panel.colour in TEXTURES:  # in a film all of them are chequered
-            return Paint(np.ones((count, 3)), positions, self._square)
-        colours = np.tile(np.array(self._plain), (count, 1))
-        if index in self._evaluators:
-            scale = self._scales[index]
-            found = _measured(self._evaluators[index], values)[self._skin.simplex]
-            colours = np.asarray(scale.to_rgba(np.clip(found, scale.norm.vmin, scale.norm.vmax)))[:, :3].copy()
-        colours[values.inverted[self._skin.simplex]] = INVERTED
-        return Paint(colours, nothing)
-
-
-def _measured(evaluator: Evaluator, values: SingularValues) -> Floats:
-    with np.errstate(all="ignore"):
-        found = evaluator(values)
-    return np.where(np.isnan(found), np.inf, found)
+    def _paint(self, index: int, scene: Scene) -> Paint:
+        panel, moved = self.film.panels[index], scene.map
+        if panel.colour in TEXTURES:
+            white = np.ones((len(scene.skin.triangles), 3))
+            coordinates = scene.drawn(moved.positions) / self._square
+            paint = Paint(white, coordinates, TEXTURES.index(panel.colour))
+        else:
+            values = moved.values(measure_of(panel))[scene.skin.simplex] if panel.has_measure else None
+            paint = Paint(colours_of(scene, self._paints.get(index), values, self._plain), np.empty((0, 2)))
+        if panel.edges:
+            paint = replace(paint, edge=EDGES[self.is_dark], strength=PLAIN_EDGES if panel.colour == PLAIN else OTHER_EDGES)
+        if scene.is_flat:
+            return paint
+        return replace(paint, colours=paint.colours * shades(scene.points, scene.skin)[:, None])
 
 
 def _filling(frame: Frame, box: Box) -> Frame:

@@ -10,10 +10,14 @@ from numpy.typing import NDArray
 
 from workbench.core.arrays import Floats, Integers
 from workbench.engine.compile_elsewhere import compile_elsewhere
-from workbench.figures.mesh_pictures import FINER, TEXTURE
+from workbench.figures.mesh_pictures import FINER, LINE, RINGS, TEXTURE
 from workbench.figures.raster import rasterise
+from workbench.figures.recipe import TEXTURES
 
 Pixels = NDArray[np.uint8]
+GRID, CIRCLES, STRIPES = (TEXTURES.index(name) for name in ("grid", "circles", "stripes"))
+OFF_CORNERS = 0.37
+"""Squares by which a texture is shifted: a flat side of a solid often lies at a round coordinate."""
 EDGE_REACH = 0.35
 """Half the width of an edge, in pixels of the film."""
 
@@ -25,15 +29,15 @@ class Paint:
     Parameters
     ----------
     colours : (k, 3) float64         in [0, 1], one a triangle
-    coordinates : (n, c) float64     of the vertices in a chequered texture; no rows: `colours` count
-    square : float                   side of a square of the texture
+    coordinates : (n, c) float64     of the points in a texture, in squares of it; no rows: `colours` count
+    texture : int                    place in `TEXTURES`
     edge : (3,) float64              colour of edges
     strength : float                 in [0, 1], of edges; 0: none are drawn
     """
 
     colours: Floats
     coordinates: Floats
-    square: float = 1.0
+    texture: int = 0
     edge: tuple[float, float, float] = (0.2, 0.2, 0.2)
     strength: float = 0.0
 
@@ -53,7 +57,7 @@ def draw_triangles(points: Floats, triangles: Integers, layers: Integers, paint:
     heights = _heights(finer[:, :2], triangles) if paint.strength > 0 else np.zeros((1, 3))
     _shade(
         raster.triangle, raster.weights, triangles, np.ascontiguousarray(paint.colours), np.array(TEXTURE),
-        np.ascontiguousarray(paint.coordinates, dtype=np.float64), paint.square, heights, np.array(paint.edge),
+        np.ascontiguousarray(paint.coordinates, dtype=np.float64), paint.texture, heights, np.array(paint.edge),
         paint.strength, EDGE_REACH * FINER, FINER, picture,
     )  # fmt: skip
 
@@ -68,13 +72,32 @@ def _heights(points: Floats, triangles: Integers) -> Floats:
 
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
+def _ink(place, texture):  # type: ignore[no-untyped-def]
+    """Whether a place (c,) of a texture is dark: the same as `is_inked`, for one place; 1 or 0."""
+    tile, square, line = 0, 0.0, 0
+    for k in range(len(place)):
+        cell = np.floor(place[k])
+        tile += int(cell)
+        square += (place[k] - cell - 0.5) ** 2
+        line = max(line, int(place[k] - cell < LINE))
+    if texture == GRID:
+        return line
+    if texture == CIRCLES:
+        radius = np.sqrt(square)
+        return int(radius < RINGS[0] or RINGS[1] < radius < RINGS[2])
+    if texture == STRIPES:
+        return int(np.floor(place[0])) % 2
+    return tile % 2
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
 def _shade(  # type: ignore[no-untyped-def]
-    seen, weights, triangles, colours, texture, coordinates, square, heights, edge, strength, reach, finer, picture
+    seen, weights, triangles, colours, inks, coordinates, texture, heights, edge, strength, reach, finer, picture
 ):
     height, width = picture.shape[:2]
     share = 1.0 / (finer * finer)
     is_textured = coordinates.shape[0] > 0
-    mixed = np.empty(3)
+    mixed, place = np.empty(3), np.empty(coordinates.shape[1])
     for row in range(height):
         for column in range(width):
             covered = 0
@@ -87,21 +110,18 @@ def _shade(  # type: ignore[no-untyped-def]
                         continue
                     covered += 1
                     a, b, c = weights[y, x, 0], weights[y, x, 1], weights[y, x, 2]
-                    tile = 0
+                    ink = 0
                     if is_textured:
+                        i0, i1, i2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
                         for k in range(coordinates.shape[1]):
-                            place = (
-                                a * coordinates[triangles[t, 0], k]
-                                + b * coordinates[triangles[t, 1], k]
-                                + c * coordinates[triangles[t, 2], k]
-                            )
-                            tile += int(np.floor(place / square + 0.37))
+                            place[k] = a * coordinates[i0, k] + b * coordinates[i1, k] + c * coordinates[i2, k] + OFF_CORNERS
+                        ink = _ink(place, texture)
                     dark = 0.0
                     if strength > 0.0 and min(a * heights[t, 0], b * heights[t, 1], c * heights[t, 2]) < reach:
                         dark = strength
                     for k in range(3):
                         # under a texture the colour of the triangle is how light falls on it
-                        base = colours[t, k] * texture[tile % 2, k] if is_textured else colours[t, k]
+                        base = colours[t, k] * inks[ink, k] if is_textured else colours[t, k]
                         mixed[k] += (1.0 - dark) * base + dark * edge[k]
             if covered:
                 for k in range(3):
