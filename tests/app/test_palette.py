@@ -68,6 +68,17 @@ def test_words_may_stand_in_the_path_and_in_any_order() -> None:
     assert not search(entries, "target dark")
 
 
+def test_other_words_are_found_in_one_piece_only() -> None:
+    entries = [
+        entry("Scalable locally injective mappings", "Choices", "Solver", also="slim"),
+        entry("Pause", "Solver", also="run Run or pause the solver (Space)"),
+        entry("Refine source and map…", "Edit", also="refine"),
+    ]
+    assert titles(entries, "slim")[0] == "Scalable locally injective mappings"
+    assert titles(entries, "run")[0] == "Pause"
+    assert "Pause" not in titles(entries, "rn")
+
+
 def test_what_was_used_lately_comes_first_among_what_fits_alike() -> None:
     entries = [entry(name, "Solver") for name in ("Step", "Stop", "Store")]
     assert titles(entries, "st", ("Solver › Stop",))[0] == "Stop"
@@ -78,9 +89,9 @@ def test_what_was_used_lately_comes_first_among_what_fits_alike() -> None:
 def test_five_hundred_entries_are_searched_between_two_keys() -> None:
     entries = [entry(f"Symmetric Dirichlet, filtered barrier {n}", "Show", f"Colour map {n % 7}") for n in range(600)]
     for typed in ("s", "sym dir", "show colour filtered", "eiiiaei"):
-        begun = time.perf_counter()
+        begun = time.thread_time()  # of this thread alone: the machine may have other things to do
         search(entries, typed)
-        assert time.perf_counter() - begun < 0.15, typed
+        assert time.thread_time() - begun < 0.15, typed
 
 
 # ---------------------------------------------------------------------------------------------- in the window
@@ -141,6 +152,19 @@ def test_keys_of_the_window_are_letters_here_and_escape_changes_nothing(window: 
     assert not window.document.wants_to_run and len(window.document.anchors) == 1
     QTest.keyClick(palette.line, Qt.Key.Key_Escape)
     assert not palette.isVisible()
+
+
+def test_what_comes_while_it_is_open_is_listed(window: MainWindow, palette: Palette, qtbot: QtBot) -> None:
+    def state() -> bool | None:
+        found = palette.list.found.found[0].entry
+        assert found.title == "Gradient descent" and palette.line.text() == "gradient desc"
+        return found.is_checked
+
+    QTest.keyClicks(palette.line, "gradient desc")
+    was = state()
+    window.document.choose(solver="slim" if was else "gradient-descent")
+    qtbot.waitUntil(lambda: state() is not was)
+    QTest.keyClick(palette.line, Qt.Key.Key_Escape)
 
 
 def test_arrows_go_round_and_the_mouse_chooses(window: MainWindow, palette: Palette) -> None:

@@ -77,6 +77,7 @@ def _of_action(window: MainWindow, action: QAction, path: tuple[str, ...], seen:
         is_checked=action.isChecked() if action.isCheckable() else None,
         is_enabled=is_enabled,
         reason="" if is_enabled else reason_of(action.objectName(), path),
+        also=f"{action.objectName()} {tip}",
     )
 
 
@@ -117,6 +118,7 @@ def _of_box(box: QComboBox, path: tuple[str, ...]) -> Iterator[Entry]:
             tip=str(box.itemData(row, Qt.ItemDataRole.ToolTipRole) or ""),
             is_checked=row == box.currentIndex(),
             lift=1.0,
+            also=f"{box.itemData(row)}",
         )
 
 
@@ -155,6 +157,7 @@ def _shown(window: MainWindow) -> Iterator[Entry]:
                 tip=quantity.formula,
                 is_checked=quantity.id == shown,
                 lift=-1.0,
+                also=quantity.id,
             )
 
 

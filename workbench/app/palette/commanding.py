@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Qt
 
 from workbench.app.palette.collecting import entries_of
 from workbench.app.palette.entry import Entry
@@ -27,10 +27,18 @@ class Commanding(QObject):
         if self.palette is None:
             self.palette = Palette(self._window)
             self.palette.wanted.connect(self._do)
+            document = self._window.document
+            for signal in (document.opened, document.session_changed, self._window.quantities.listed):
+                signal.connect(self._renew, Qt.ConnectionType.QueuedConnection)
         if self.palette.isVisible():
             self.palette.close_and_then()
             return
         self.palette.open(entries_of(self._window), self._window.settings.recent_commands)
+
+    def _renew(self) -> None:
+        """What can be done is something else now, while the palette is open."""
+        if self.palette is not None and self.palette.isVisible():
+            self.palette.renew(entries_of(self._window))
 
     def _do(self, entry: Entry) -> None:
         self._window.settings.remember_command(entry.key)

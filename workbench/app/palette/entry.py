@@ -10,8 +10,8 @@ from workbench.app.palette.fuzzy import Fit, fit
 ARROW = " › "
 RECENT = 10.0
 """What the entry that was used last is worth beside what fits it; those before it less and less."""
-BEHIND = 0.4
-"""What letters in the path are worth, against those in the title."""
+BEHIND, OTHERWISE = 0.4, 0.8
+"""What letters in the path, and in other words for it, are worth against those in the title."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +19,7 @@ class Entry:
     """Words, keys and deed of one command.
 
     `path` are the menus that lead to it, `name` is what it is remembered by: titles such as that of Undo change.
+    `also` are other words for it, such as an id, in which whole pieces of what is typed are found.
     `is_checked` is None for what cannot be switched on and off; `reason` says why it is not possible now. `lift` is what an
     entry is worth beside another that fits as well.
     """
@@ -33,6 +34,7 @@ class Entry:
     is_enabled: bool = True
     reason: str = ""
     lift: float = 0.0
+    also: str = ""
 
     @property
     def place(self) -> str:
@@ -80,9 +82,12 @@ def _fit_all(entry: Entry, typed: str, words: Sequence[str]) -> Fit | None:
     score, places = 0.0, set()
     for word in words:
         in_title, in_path = fit(word, entry.title), fit(word, entry.place)
-        if in_title is None and in_path is None:
+        in_other = fit(word, entry.also) if word.casefold() in entry.also.lower() else None
+        if in_title is None and in_path is None and in_other is None:
             return whole
         by_path = in_path.score * BEHIND if in_path is not None else float("-inf")
+        if in_other is not None:
+            by_path = max(by_path, in_other.score * OTHERWISE)
         if in_title is not None and in_title.score >= by_path:
             score += in_title.score
             places.update(in_title.places)

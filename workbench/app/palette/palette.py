@@ -66,6 +66,16 @@ class Palette(QFrame):
         self.raise_()
         self.line.setFocus(Qt.FocusReason.PopupFocusReason)
 
+    def renew(self, entries: Sequence[Entry]) -> None:
+        """Other entries, while it is open: what is typed and what is marked stay."""
+        found, row = self.list.found.found, self.list.currentIndex().row()
+        marked = found[row].entry.key if 0 <= row < len(found) else ""
+        self._entries = entries
+        self._search(self.line.text())
+        keys = [one.entry.key for one in self.list.found.found]
+        if row > 0 and marked in keys:
+            self.list.choose_row(keys.index(marked))
+
     def close_and_then(self, deed: Callable[[], None] | None = None) -> None:
         """Give the focus back, then do what was chosen."""
         before, self._focus_before = self._focus_before, None
