@@ -9,7 +9,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-NICENESS = 10
+NICENESS, LOWEST = 10, 19
 
 
 def run_child(gives_way: bool, body: Callable[..., None] | str, *arguments: Any) -> None:
@@ -33,8 +33,9 @@ def give_way() -> None:
     """Low priority for this process from now on, the threads that it has included."""
     tasks = Path("/proc/self/task")
     if tasks.is_dir():  # Linux: priorities belong to threads
+        low = min(os.getpriority(os.PRIO_PROCESS, 0) + NICENESS, LOWEST)
         for task in tasks.iterdir():
             with suppress(OSError):  # it has ended meanwhile
-                os.setpriority(os.PRIO_PROCESS, int(task.name), NICENESS)
+                os.setpriority(os.PRIO_PROCESS, int(task.name), low)
     elif hasattr(os, "nice"):
         os.nice(NICENESS)
