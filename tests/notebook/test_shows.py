@@ -119,16 +119,16 @@ def test_maps_become_figures_with_one_scale(dome: Mesh, tmp_path: Path) -> None:
 
 
 def test_presets_and_recipes_are_those_of_the_command_line(square: Mesh, tmp_path: Path) -> None:
-    mesh = str(tmp_path / "square.npz")
+    mesh, theirs, ours = str(tmp_path / "square.npz"), tmp_path / "theirs", tmp_path / "ours"
     moved = square.vertices[[0, 48]] + [[0.0, 0.0], [0.4, 0.2]]
     np.savez(mesh, V=square.vertices, S=square.simplices, anchors=[0, 48], targets=moved)
-    command = ["figure", "before-after", "--mesh", mesh, "--out", str(tmp_path), "--recipe", "--quiet"]
+    command = ["figure", "before-after", "--mesh", mesh, "--out", str(theirs), "--recipe", "--quiet"]
     assert main([*command, "--width", "85", "--dpi", "100"]) == 0
-    figure("before-after", mesh=mesh, width=85.0, dpi=100).save(tmp_path / "ours.svg")
-    assert (tmp_path / "ours.svg").read_bytes() == (tmp_path / "before-after.svg").read_bytes()
-    again = figure(tmp_path / "before-after.json")
-    again.save(tmp_path / "again.json")
-    assert json.loads((tmp_path / "again.json").read_text()) == json.loads((tmp_path / "before-after.json").read_text())
+    ours.mkdir()
+    figure("before-after", mesh=mesh, width=85.0, dpi=100).save(ours / "ours.svg")
+    figure(theirs / "before-after.json").save(ours / "again.json")
+    for mine, other in (("ours.svg", "before-after.svg"), ("again.json", "before-after.json")):
+        assert (ours / mine).read_bytes() == (theirs / other).read_bytes()
     with pytest.raises(WorkbenchError, match="no-such-figure"):
         figure("no-such-figure")
 
