@@ -245,7 +245,7 @@ def test_anchors_near_by_follow_as_far_as_the_wheel_says(window: MainWindow) -> 
     away = np.arange(21) * 0.1
     np.testing.assert_allclose(narrow, np.clip(1 - (away / radius) ** 2, 0, 1) ** 2, atol=1e-6)
     assert narrow[0] == 1.0 and 0.0 < narrow[1] < 1.0 and narrow[-1] == 0.0
-    assert "reach" in view.overlay.scene.sketches and "wheel" in view.overlay.scene.hint
+    assert "reach" in view.overlay.scene.sketches and "Wheel" in view.overlay.scene.hint
     where = QPointF(begin)
     for _ in range(3):
         wheel = QWheelEvent(

@@ -165,7 +165,7 @@ class AnchorTool(NavigationTool):
         self.taken_up.emit()
 
     def _hint(self, hold: Hold) -> str:
-        words = hold.hint() + (" · wheel: how far others follow" if self.wheel_is_taken else "")
+        words = hold.hint() + ("\nWheel: how far others follow" if self.wheel_is_taken else "")
         return f"{words}\n{self.note}" if self.note else words
 
     # ------------------------------------------------------------------------------------------ move

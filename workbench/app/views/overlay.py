@@ -223,7 +223,9 @@ class Overlay(QWidget):
         if not text:
             return
         metrics = painter.fontMetrics()
-        box = QRectF(metrics.boundingRect(QRect(0, 0, 10_000, 0), Qt.AlignmentFlag.AlignLeft, text)).adjusted(-6, -3, 6, 3)
+        lines = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap
+        room = QRect(0, 0, max(self.width() - 16, 80), 10_000)
+        box = QRectF(metrics.boundingRect(room, lines, text)).adjusted(-6, -3, 6, 3)
         box.moveTopLeft(at + QPointF(0, -box.height()))
         # near an edge of the view the label turns back inside
         box.moveLeft(min(max(box.left(), 2.0), self.width() - box.width() - 2.0))
@@ -234,4 +236,4 @@ class Overlay(QWidget):
         painter.setBrush(paper)
         painter.drawRoundedRect(box, 4, 4)
         painter.setPen(QColor(self.theme.text))
-        painter.drawText(box.adjusted(6, 0, -6, 0), Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter, text)
+        painter.drawText(box.adjusted(6, 0, -4, 0), lines, text)
