@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -46,19 +47,14 @@ def _stamp_many(painter: QPainter, centres: Floats, colour: QColor, rim: QPen, r
 
 
 def _grown(marks: Booleans, radius: float) -> Booleans:
-    """Every pixel within a radius of a marked one: rows are widened for each distance between rows."""
+    """Every pixel whose middle is within a radius of the upper left corner of a marked one, row by row of the disc."""
     found = np.zeros_like(marks)
-    reach = int(radius)
-    for down in range(-reach, reach + 1):
-        half = int((radius**2 - down**2) ** 0.5)
-        wide = marks.copy()
-        for side in range(1, half + 1):
-            wide[:, side:] |= marks[:, :-side]
-            wide[:, :-side] |= marks[:, side:]
-        if down >= 0:
-            found[down:] |= wide[: len(marks) - down]
-        else:
-            found[:down] |= wide[-down:]
+    for down in range(-int(radius + 0.5), int(radius + 0.5)):
+        half = math.sqrt(max(radius**2 - (down + 0.5) ** 2, 0.0))
+        wide = np.zeros_like(marks)
+        for aside in range(-int(half + 0.5), int(half + 0.5)):
+            wide[:, max(aside, 0) : marks.shape[1] + min(aside, 0)] |= marks[:, max(-aside, 0) : marks.shape[1] - max(aside, 0)]
+        found[max(down, 0) : len(marks) + min(down, 0)] |= wide[max(-down, 0) : len(marks) - max(down, 0)]
     return found
 
 
