@@ -61,7 +61,7 @@ def test_hard_soft_and_off_are_told_apart(qapp: object) -> None:
 
     seen = painted(paint)[:, :, :3]
     blue = [ANCHOR.blue(), ANCHOR.green(), ANCHOR.red()]
-    insides = [seen[int(y) + 2, int(x) + 3].tolist() for x, y in discs]  # beside the line, which ends in the middle
+    insides = [seen[int(y) + 1, int(x) + 2].tolist() for x, y in discs]  # beside the line, which ends in the middle
     assert insides[0] == blue, "a disc"
     assert insides[1] == insides[2] == [255, 255, 255], "rings"
     between = seen[40:50, :, :].min(axis=2) < 250
