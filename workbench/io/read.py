@@ -64,9 +64,9 @@ def read_bytes(path: Path) -> bytes:
     try:
         status = path.stat()
         if stat.S_ISDIR(status.st_mode):
-            raise MeshError(f"{path} is a folder; name a mesh file in it.")
+            raise MeshError(f"{path} is a folder; name a file in it.")
         if not stat.S_ISREG(status.st_mode):
-            raise MeshError(f"{path} is not an ordinary file.")
+            raise MeshError(f"{path} is not an ordinary file; name one that holds data.")
         if status.st_size > LARGEST_FILE:
             raise MeshError(f"{path} has {status.st_size / 2**30:.0f} GiB, too much for one mesh.")
         data = path.read_bytes()
@@ -78,7 +78,7 @@ def read_bytes(path: Path) -> bytes:
         reason = getattr(error, "strerror", None) or str(error) or "out of memory"
         raise MeshError(f"{str(path)[:200]!r} cannot be read: {reason}.") from None
     if not data:
-        raise MeshError(f"{path} is empty (0 bytes); save or copy the mesh again.")
+        raise MeshError(f"{path} is empty (0 bytes); save or copy it again.")
     return data
 
 
