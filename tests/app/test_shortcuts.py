@@ -113,8 +113,8 @@ def test_everything_is_said(window: MainWindow) -> None:
 
 
 def test_every_action_can_be_reached_from_a_menu(window: MainWindow) -> None:
-    listed = {id(action) for menu in menus(window) for action in menu.actions()}
-    assert not [name for name, action in window.actions_by_name.items() if id(action) not in listed]
+    listed = {action for menu in menus(window) for action in menu.actions()}
+    assert not [name for name, action in window.actions_by_name.items() if action not in listed]
 
 
 def test_every_button_of_the_tool_bar_has_a_picture(window: MainWindow) -> None:

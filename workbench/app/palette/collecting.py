@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
-import shiboken6
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QComboBox, QMenu
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def entries_of(window: MainWindow) -> list[Entry]:
     """All entries as they are now, each deed once: menus first, then choices, then what views can show."""
     entries: list[Entry] = []
-    seen: set[int] = set()
+    seen: set[QAction] = set()
     for top in window.menuBar().actions():
         menu = top.menu()
         if isinstance(menu, QMenu):
@@ -49,7 +49,7 @@ def keys_of(action: QAction) -> str:
 # ---------------------------------------------------------------------------------------------- menus
 
 
-def _of_menu(window: MainWindow, menu: QMenu, path: tuple[str, ...], seen: set[int]) -> Iterator[Entry]:
+def _of_menu(window: MainWindow, menu: QMenu, path: tuple[str, ...], seen: set[QAction]) -> Iterator[Entry]:
     menu.aboutToShow.emit()  # many are filled when they are opened
     for action in menu.actions():
         inner = action.menu()
@@ -60,11 +60,10 @@ def _of_menu(window: MainWindow, menu: QMenu, path: tuple[str, ...], seen: set[i
             yield from _of_action(window, action, path, seen)
 
 
-def _of_action(window: MainWindow, action: QAction, path: tuple[str, ...], seen: set[int]) -> Iterator[Entry]:
-    address = int(shiboken6.getCppPointer(action)[0])
-    if action.isSeparator() or not plain(action.text()) or address in seen or not action.isVisible():
+def _of_action(window: MainWindow, action: QAction, path: tuple[str, ...], seen: set[QAction]) -> Iterator[Entry]:
+    if action.isSeparator() or not plain(action.text()) or action in seen or not action.isVisible():
         return
-    seen.add(address)
+    seen.add(action)
     is_enabled = action.isEnabled()
     tip = action.toolTip()
     yield Entry(
@@ -82,7 +81,7 @@ def _of_action(window: MainWindow, action: QAction, path: tuple[str, ...], seen:
 
 
 def _trigger(action: QAction) -> None:
-    if shiboken6.isValid(action):  # its menu may have been filled anew
+    with suppress(RuntimeError):  # its menu has been filled anew meanwhile
         action.trigger()
 
 
@@ -129,7 +128,7 @@ def _choose(box: QComboBox, text: str) -> None:
         box.activated.emit(row)
 
 
-def _own_formulas(window: MainWindow, seen: set[int]) -> Iterator[Entry]:
+def _own_formulas(window: MainWindow, seen: set[QAction]) -> Iterator[Entry]:
     tools = window.panel.distortion.tools
     for name, menu in (("Own formulas", tools.own_menu), ("Recent formulas", tools.recent_menu)):
         yield from _of_menu(window, menu, ("Choices", name), seen)

@@ -48,6 +48,15 @@ GESTURES: dict[str, Rows] = {
         ("Drag in the plane of the inspector", "marks those simplices"),
         ("Title of a panel", "drag it elsewhere; its buttons float and close it"),
     ),
+    "Time line": (
+        ("Drag", "looks back; the solver goes on meanwhile"),
+        ("Left, Right", "by one map, with Shift by ten"),
+        ("Home, End", "the first map, the newest"),
+        ("Space", "plays it, or pauses"),
+        ("A, B", "mark the moment that is shown; once more lets it go"),
+        ("X", "from A to B and back"),
+        ("L", "the newest map, as it comes"),
+    ),
     "Formula": (
         ("Enter", "takes the formula that was typed"),
         ("Esc", "brings back the one before"),

@@ -23,7 +23,7 @@ ANYWHERE = "Anywhere"
 def sheet_of(window: MainWindow) -> Sheet:
     """Every key of the window in the order of the menus, then gestures, then the window of a race."""
     sheet: Sheet = {}
-    seen: set[int] = set()
+    seen: set[QAction] = set()
     for top in window.menuBar().actions():
         menu = top.menu()
         if isinstance(menu, QMenu):
@@ -49,11 +49,11 @@ def keys_of(action: QAction) -> list[str]:
     return [key.toString(QKeySequence.SequenceFormat.NativeText) for key in action.shortcuts()]
 
 
-def _add(sheet: Sheet, section: str, actions: Sequence[QAction], seen: set[int]) -> None:
+def _add(sheet: Sheet, section: str, actions: Sequence[QAction], seen: set[QAction]) -> None:
     rows = []
     for action in actions:
-        if action.shortcuts() and id(action) not in seen:
-            seen.add(id(action))
+        if action.shortcuts() and action not in seen:
+            seen.add(action)
             rows.append((", ".join(keys_of(action)), words_of(action)))
     if rows:
         sheet[section] = rows
