@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.engine.python_script import MOST_INLINE, literal, write_script
 from workbench.engine.replay import replay
@@ -84,7 +85,7 @@ def test_the_script_leads_to_the_same_energy(case: str, tmp_path: Path) -> None:
     told = run_script(path)
     assert told.returncode == 0, told.stderr
     assert f"14 iterations, energy {record.energy:.15g}" in told.stdout
-    assert not path.with_suffix(".npz").exists()
+    assert [item.suffix for item in sorted(tmp_path.iterdir())] == [".py", ".npz"], "the script, and the mesh that was there"
     path.write_text(path.read_text().replace(f"RECORDED = {record.energy!r}", f"RECORDED = {record.energy * (1 + 1e-9)!r}"))
     assert "not the one that was recorded" in complaint(path)
 
@@ -96,7 +97,7 @@ def test_maps_and_many_anchors_stand_in_a_file_beside_it(square: Mesh, case: str
     turned = square.vertices * [1.2, 0.8]
     path = written(recorded(SessionRecord(session, legs=(Leg(session, "map", turned, 5),))), tmp_path)
     assert "[1.2" not in path.read_text()
-    with np.load(path.with_suffix(".npz")) as arrays:
+    with np.load(path.with_name("again-arrays.npz")) as arrays:
         np.testing.assert_array_equal(arrays["leg_1"], turned)
         assert arrays["anchors_1_vertices"].tolist() == list(vertices)
     assert not complaint(path)
@@ -118,6 +119,15 @@ def test_a_map_of_a_hand_is_measured(square: Mesh, case: str, tmp_path: Path) ->
     record = recorded(SessionRecord(Session(case, distortion="dirichlet"), map=square.vertices * [1.5, 0.8]))
     assert record.energy == pytest.approx(1.5**2 + 0.8**2)
     assert not complaint(written(record, tmp_path))
+
+
+def test_a_script_never_writes_over_its_mesh(square: Mesh, tmp_path: Path) -> None:
+    mesh = tmp_path / "again-arrays.npz"
+    np.savez(mesh, V=square.vertices, S=square.simplices)
+    before = mesh.read_bytes()
+    with pytest.raises(WorkbenchError, match="another name"):
+        written(SessionRecord(Session(str(mesh)), map=square.vertices), tmp_path)
+    assert mesh.read_bytes() == before and not (tmp_path / "again.py").exists()
 
 
 def test_another_mesh_is_told(case: str, tmp_path: Path) -> None:

@@ -28,6 +28,8 @@ from workbench.session.session import ANCHORS, Session
 from workbench.session.text import plain_of, record_of
 
 ENDING = ".py"
+ARRAYS = "-arrays.npz"
+"""What the name of the file of arrays has in place of the ending: hardly the name of a mesh that lies there, too."""
 MOST_INLINE = 24
 """Anchors that stand in the script; more of them are arrays in a file beside it."""
 WIDTH = 120
@@ -74,7 +76,7 @@ def literal(value: Any) -> str:
 
 
 def write_script(path: str | os.PathLike[str], record: SessionRecord, opened: OpenedSource) -> None:
-    """Write the script, and beside it an `.npz` of the same name where maps or many anchors belong to it.
+    """Write the script, and beside it `NAME-arrays.npz` where maps or many anchors belong to it.
 
     Files are named relative to the folder of the script. Raises `WorkbenchError` where the session does not fit its mesh.
     """
@@ -82,13 +84,21 @@ def write_script(path: str | os.PathLike[str], record: SessionRecord, opened: Op
     if place.suffix.lower() != ENDING:
         raise WorkbenchError(f"{path}: a Python script has the ending {ENDING}.")
     text, arrays = script_of(record, opened, place)
+    beside = _arrays_of(place)
+    if arrays and os.path.realpath(beside) == os.path.realpath(opened.file.path):
+        raise WorkbenchError(f"The arrays of the script would take the place of its mesh {beside}; choose another name.")
     if arrays:
-        write_case(place.with_suffix(".npz"), arrays)
+        write_case(beside, arrays)
     write_text(place, text)
 
 
+def _arrays_of(place: Path) -> Path:
+    """Where the arrays of a script stand."""
+    return place.with_name(place.stem + ARRAYS)
+
+
 def script_of(record: SessionRecord, opened: OpenedSource, place: Path) -> tuple[str, dict[str, Floats]]:
-    """The script of a session that stands at `place`, and the arrays by name that belong into its `.npz`."""
+    """The script of a session that stands at `place`, and the arrays by name that belong into the file beside it."""
     plain, maps = plain_of(record)
     record = record_of(plain, maps)  # as a file has it: a leg has the choices of its session where it has none of its own
     check_maps(record, opened)
@@ -138,7 +148,7 @@ class _Writer:
         if energy is not None:
             parts.append(f"RECORDED = {literal(energy)}  # the energy in the session")
         if self.arrays:
-            parts.append(f"arrays = np.load(HERE / {literal(place.with_suffix('.npz').name)})")
+            parts.append(f"arrays = np.load(HERE / {literal(_arrays_of(place).name)})")
         parts += [""] * (len(parts) > 1) + [self.load(session)]
         if sha256:
             parts.append(f"if source.opened.file.sha256 != {literal(sha256)}:")
