@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -26,6 +25,7 @@ from PySide6.QtWidgets import (
 
 from workbench.app.composing.offers import Offer
 from workbench.app.composing.panel_table import PanelTable
+from workbench.app.new_file import ask_new_file
 from workbench.figures.recipe import BACKGROUNDS, Page, Panel
 
 FILTERS = "PDF (*.pdf);;SVG (*.svg);;PNG (*.png);;Recipe (*.json)"
@@ -193,13 +193,8 @@ class FigureDialog(QDialog):
         self.note.setText(sentence)
 
     def _ask_file(self) -> None:
-        dialog = QFileDialog(self, "Save the figure", str(Path(self._folder) / f"{self._stem}-figure.pdf"), FILTERS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("pdf")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
-        dialog.fileSelected.connect(self.save_wanted)
-        dialog.open()
+        place = str(Path(self._folder) / f"{self._stem}-figure.pdf")
+        ask_new_file(self, "Save the figure", place, FILTERS, "pdf", self.save_wanted.emit, overwrites=True)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self._timer.stop()

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -27,6 +26,7 @@ from PySide6.QtWidgets import (
 
 from workbench.app.composing.offers import Offer
 from workbench.app.composing.panel_table import PanelTable
+from workbench.app.new_file import ask_new_file
 from workbench.app.timeline.film_plan import PACES, PARTS, FilmPlan
 from workbench.figures.film import LEAST, MOST, RATES, Film
 from workbench.figures.film_page import GROUNDS
@@ -210,13 +210,7 @@ class FilmDialog(QDialog):
         self.note.setText(sentence)
 
     def _ask_file(self) -> None:
-        dialog = QFileDialog(self, "Save the film", str(self._place), FILTERS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("gif")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
-        dialog.fileSelected.connect(self.save_wanted)
-        dialog.open()
+        ask_new_file(self, "Save the film", str(self._place), FILTERS, "gif", self.save_wanted.emit, overwrites=True)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self._timer.stop()
