@@ -222,9 +222,10 @@ def test_recent_files_and_screenshots(window: MainWindow, tmp_path: Path, qtbot:
     window.open(str(path))
     qtbot.waitUntil(lambda: window.document.session.source == str(path))
     assert window.settings.recent_files[0] == str(path)
-    for widget in (window, window.source.view):
-        window.commands.save_screenshot(widget, str(tmp_path / "shot.png"))
-        assert (tmp_path / "shot.png").stat().st_size > 1000
+    for number, widget in enumerate((window, window.source.view)):
+        shot = tmp_path / f"shot-{number}.png"
+        window.commands.save_screenshot(widget, str(shot))
+        qtbot.waitUntil(lambda path=shot: path.is_file() and path.stat().st_size > 1000)
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
