@@ -16,6 +16,7 @@ from PySide6.QtWidgets import QLineEdit, QMessageBox
 from pytestqt.qtbot import QtBot
 
 from workbench.app.anchor_set import AnchorSet
+from workbench.app.anchors import anchor_dock
 from workbench.app.anchors.anchor_dock import AnchorDock
 from workbench.app.anchors.anchor_edits import pasted, set_of, table_of
 from workbench.app.anchors.anchor_table_model import AnchorTableModel
@@ -264,7 +265,9 @@ def test_views_and_table_select_alike(window: MainWindow, dock: AnchorDock) -> N
     assert dock.chosen_vertices.tolist() == [60], "rows move, the choice stays"
 
 
-def test_keys_delete_copy_and_paste(window: MainWindow, dock: AnchorDock) -> None:
+def test_keys_delete_copy_and_paste(
+    window: MainWindow, dock: AnchorDock, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
     document, before = window.document, window.document.anchors.weighted([4], 1.5).in_group([4, 60], 2)
     document.set_anchors(before)
     QTest.qWait(30)
@@ -283,6 +286,13 @@ def test_keys_delete_copy_and_paste(window: MainWindow, dock: AnchorDock) -> Non
     QTest.keyClick(dock.table, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
     assert document.anchors == before, "all or nothing"
     assert "Row 2, column x: 'zero' is not a number" in window.error_bar.sentence.text()
+    monkeypatch.setattr(anchor_dock, "LONG", 1)
+    for last in ("0.5", "half"):
+        QGuiApplication.clipboard().setText(f"vertex,x,y\n4,0.25,{last}\n")
+        QTest.keyClick(dock.table, Qt.Key.Key_V, Qt.KeyboardModifier.ControlModifier)
+        qtbot.waitUntil(lambda: not len(dock.works))
+    assert document.anchors == before.moved(np.array([4]), np.array([[0.25, 0.5]])), "long texts, too, and weights stay"
+    assert "Row 2, column y: 'half'" in window.error_bar.sentence.text()
     click(dock, 0, "y")
     click(dock, 2, "y", Qt.KeyboardModifier.ShiftModifier)
     QGuiApplication.clipboard().setText("0.125\n")

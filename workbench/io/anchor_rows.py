@@ -247,9 +247,9 @@ def columns_of(table: AnchorTable, *, whole: bool = False) -> dict[str, list[str
     """
     columns = {"vertex": [str(vertex) for vertex in table.vertices.tolist()]}
     for axis, values in zip(AXES, table.targets.T, strict=False):
-        columns[axis] = [f"{value:.17g}" for value in values.tolist()]
+        columns[axis] = list(map(repr, values.tolist()))
     if whole or np.isfinite(table.weights).any():
-        columns["weight"] = [f"{weight:.17g}" for weight in table.weights.tolist()]
+        columns["weight"] = list(map(repr, table.weights.tolist()))
     if whole or (table.groups >= 0).any():
         columns["group"] = [str(group) if group >= 0 else "" for group in table.groups.tolist()]
     if whole or table.is_off.any():

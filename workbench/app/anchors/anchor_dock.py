@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import Qt
@@ -14,6 +15,7 @@ from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_edits import edited, pasted
 from workbench.app.anchors.anchor_table import AnchorTable
 from workbench.app.anchors.anchor_table_model import AnchorTableModel
+from workbench.app.background import Backgrounds
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.document import Document
 from workbench.app.error_bar import ErrorBar
@@ -21,6 +23,8 @@ from workbench.app.one_shot import one_shot
 from workbench.core.arrays import Integers
 from workbench.core.errors import WorkbenchError
 
+LONG = 200_000
+"""Letters of a pasted text from which on it is read on a thread."""
 LIVE = 150
 """Milliseconds between two looks at the map while it moves."""
 
@@ -38,6 +42,7 @@ class AnchorDock(QDockWidget):
         self._errors = errors
         self._fresh = -1
         self._is_choosing = False
+        self.works = Backgrounds(self)
         self.model = AnchorTableModel(self)
         self.table = AnchorTable(self.model, self)
         self.summary = QLabel(self)
@@ -158,9 +163,10 @@ class AnchorDock(QDockWidget):
             self._set(anchors)
         self._fresh = -1
 
-    def _refuse(self, error: WorkbenchError) -> None:
-        sentence = error.sentence[0].upper() + error.sentence[1:]
-        self._errors.show_message(sentence)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, WorkbenchError):
+            raise error
+        self._errors.show_message(error.sentence[0].upper() + error.sentence[1:])
 
     def add(self) -> None:
         """A row for the first vertex that has none, ready for another number to be typed."""
@@ -208,12 +214,20 @@ class AnchorDock(QDockWidget):
         if index.isValid() and len(text.split()) == 1 and not set(text.strip()) & set("\t;,\n"):
             self._edit(index.row(), self.model.columns[index.column()].key, text)
             return
+        before, generation = document.anchors, document.generation
+        read = partial(pasted, text, before, document.mesh.vertex_count, self._dimension)
+        if len(text) > LONG:  # the window lives while it is read
+
+            def done(found: AnchorSet) -> None:
+                if document.generation == generation:
+                    self.take(found, "Paste")
+
+            self.works.start(read, done, self._refuse)
+            return
         try:
-            found = pasted(text, document.anchors, document.mesh.vertex_count, self._dimension)
+            self.take(read(), "Paste")
         except WorkbenchError as error:
             self._refuse(error)
-            return
-        self.take(found, "Paste")
 
     def take(self, found: AnchorSet, verb: str) -> None:
         """Anchors from elsewhere as one step: new ones are added, those that are there become as these say."""

@@ -43,6 +43,7 @@ class AnchorFiles(QObject):
     def wait(self) -> None:
         """Let threads end before the window does."""
         self._works.wait()
+        self.dock.works.wait()
 
     # ------------------------------------------------------------------------------------------ in
 

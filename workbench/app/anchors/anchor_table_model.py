@@ -118,7 +118,7 @@ class AnchorTableModel(QAbstractTableModel):
             whole=True,
         )
         for axis, values in zip(AXES, self._sources[table.vertices[chosen]].T, strict=False):
-            columns[f"source_{axis}"] = [f"{value:.17g}" for value in values.tolist()]
+            columns[f"source_{axis}"] = list(map(repr, values.tolist()))
         columns["residual"] = [f"{value:.6g}" for value in self._residuals[chosen].tolist()]
         return text_of(columns, "\t")
 
