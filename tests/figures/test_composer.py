@@ -17,7 +17,7 @@ from workbench.figures.figure_maps import make_maps
 from workbench.figures.mesh_panel import scene_of
 from workbench.figures.mesh_pictures import TEXTURE
 from workbench.figures.page_layout import Cell, lay_out
-from workbench.figures.recipe import CHEQUERED, MapChoice, Page, Panel, Recipe, SolidLook
+from workbench.figures.recipe import CHEQUERED, PLAIN, CarriedLook, MapChoice, Page, Panel, Recipe, SolidLook
 from workbench.figures.save import save_figure
 from workbench.session.session import Session
 
@@ -31,7 +31,7 @@ def maps():
     choices = [
         MapChoice("rest", replace(PULLED, iterations=0), label="rest $x_1"),
         MapChoice("pulled", PULLED),
-        MapChoice("solid", Session(source="sample:bar-3d", iterations=0)),
+        MapChoice("solid", Session(source="sample:bar-3d", iterations=0, carried="sample:salamander")),
     ]
     return make_maps(choices)
 
@@ -275,3 +275,20 @@ def test_other_textures_are_pictures_of_two_colours(maps, pattern):
     dark = np.linalg.norm(inside - TEXTURE[1], axis=1) < 0.05
     light = np.linalg.norm(inside - TEXTURE[0], axis=1) < 0.05
     assert 0.05 < dark.mean() < 0.7 and 0.2 < light.mean() < 0.95
+
+
+def test_a_carried_surface_is_seen_through_the_solid_and_before_it(maps):
+    def picture(carried):
+        found = figure_of(maps, Panel("source", ("solid",), PLAIN, carried=carried, caption=" "))
+        (image,) = found.figure.axes[0].images
+        return np.asarray(image.get_array())
+
+    bare, veiled, hidden, alone = picture(None), *(picture(CarriedLook("det", opacity=o)) for o in (0.25, 1.0, 0.0))
+    covered = alone[..., 3] > 0.99
+    assert 0.05 < covered.mean() < 0.6, "without the solid there is nothing but the surface"
+    assert np.abs(veiled - bare)[covered].max() > 0.1
+    mixed = 0.25 * bare[..., :3] + 0.75 * alone[..., :3]
+    is_inside = covered & (np.abs(hidden - bare).max(axis=2) < 1e-9)  # feet and tail come out of the bar
+    np.testing.assert_allclose(veiled[is_inside][:, :3], mixed[is_inside], atol=1e-9)
+    outside = ~covered & (alone[..., 3] == 0) & (bare[..., 3] == 1)
+    np.testing.assert_allclose(veiled[outside][:, 3], 0.25)

@@ -64,6 +64,8 @@ def test_files_are_named_from_where_the_recipe_is(tmp_path):
         ({"panels": [{"maps": ["a"], "look": {"normal": [1]}}]}, "normal"),
         ({"panels": [{"maps": ["a"], "look": {"place": "half"}}]}, "place"),
         ({"panels": [{"maps": ["a"], "look": {"script": "x"}}]}, "'script'"),
+        ({"panels": [{"maps": ["a"], "carried": {"opacity": 2}}]}, "opacity"),
+        ({"panels": [{"maps": ["a"], "carried": {"range": [2, 1]}}]}, "the smaller first"),
         ({"page": {"width": 1e9}}, "width"),
         ({"page": {"width": 2000, "dpi": 2400}}, "too large"),
         ({"page": {"background": "url(x)"}}, "background"),
@@ -124,3 +126,13 @@ def test_a_look_into_a_solid_is_read_as_it_was_written():
         "look": {"is_cut": True, "normal": [0.0, 0.6, 0.8], "place": 0.3, "peel_by": "det", "threshold": 0.5, "marked": [1, 4]},
     }
     assert plain_of(recipe_of(plain(panels=[panel])))["panels"] == [panel]
+
+
+def test_a_carried_surface_is_named_from_where_the_recipe_is(tmp_path):
+    carried = {"colour": "det", "range": [0.5, 2.0], "logarithmic": True, "opacity": 0.1}
+    maps = [{"name": "a", "source": "sample:bar-3d", "iterations": 0, "carried": "figure.obj"}]
+    panels = [{"kind": "map", "maps": ["a"], "carried": carried}]
+    (tmp_path / "recipe.json").write_text(json.dumps(plain(maps=maps, panels=panels)), encoding="utf-8")
+    recipe = read_recipe(tmp_path / "recipe.json")
+    assert recipe.maps[0].session.carried == str(tmp_path / "figure.obj")
+    assert plain_of(recipe)["panels"] == panels

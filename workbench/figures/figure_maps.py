@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
+from workbench.core.carried_surface import CarriedSurface
 from workbench.core.errors import SolverFailure, WorkbenchError
 from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Measure, SingularValues
@@ -18,6 +19,7 @@ from workbench.core.solid_look.solid import Solid
 from workbench.core.solver import Interrupt, never
 from workbench.core.state import State
 from workbench.core.surface_jacobians import singular_values_of_any
+from workbench.engine.carried_source import carry_source
 from workbench.engine.replay import anchors_of, replay
 from workbench.engine.starts import adjusted_start
 from workbench.figures.history_file import read_history
@@ -38,6 +40,7 @@ class FigureMap:
     positions : (n, d) float64     the map
     anchors : (k,) int64           anchored vertices
     rows : tuple of HistoryRow     up to this map; empty where it comes from a file
+    carried : CarriedSurface       that a solid takes along; None where there is none
     """
 
     title: str
@@ -45,6 +48,7 @@ class FigureMap:
     positions: Floats
     anchors: Integers
     rows: tuple[HistoryRow, ...] = ()
+    carried: CarriedSurface | None = None
 
     @cached_property
     def elements(self) -> Elements:
@@ -107,7 +111,7 @@ def _map_of_file(choice: MapChoice, opened: OpenedSource) -> FigureMap:
     positions = map_from_file(choice.target, opened.mesh, opened.kind)
     positions = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)
     rows = read_history(choice.history) if choice.history else ()
-    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened), rows)
+    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened), rows, _carried(choice, opened))
 
 
 def _is_same_run(first: MapChoice, second: MapChoice) -> bool:
@@ -129,6 +133,7 @@ def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Inter
         raise WorkbenchError("The figure was interrupted; nothing was written.")
     if result.state.status.is_failure:
         raise SolverFailure(f"The solver failed: {result.state.status.value}")
+    carried = _carried(longest, opened)
     return {
         choice.name: FigureMap(
             choice.title,
@@ -136,9 +141,14 @@ def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Inter
             kept[choice.name],
             _anchors(choice, opened),
             tuple(row for row in result.rows if row.iteration <= choice.session.iterations),
+            carried,
         )
         for choice in choices
     }
+
+
+def _carried(choice: MapChoice, opened: OpenedSource) -> CarriedSurface | None:
+    return carry_source(choice.session.carried, opened.mesh) if choice.session.carried else None
 
 
 def _anchors(choice: MapChoice, opened: OpenedSource) -> Integers:

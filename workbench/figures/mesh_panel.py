@@ -10,6 +10,7 @@ import numpy as np
 from workbench.core.arrays import Booleans, Floats
 from workbench.core.mesh import Mesh
 from workbench.core.solid_look.drawn_faces import MadePoints
+from workbench.figures.carried_panel import carried_layer
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.figure_maps import FigureMap
 from workbench.figures.glyph_panel import draw_glyphs
@@ -107,8 +108,13 @@ def draw_scene(
     frame : Frame             what is seen; its density is that of a picture
     size : float              factor of the widths of lines, 1 at 8 points of text
     """
+    carried = carried_layer(scene)
+
+    def whole(image: Floats, part: Frame) -> Floats:
+        return veiled(image if carried is None else carried.below(image, scene, part), scene, part)
+
     if scene.panel.colour in TEXTURES:
-        _picture(axes, in_strips(lambda part: veiled(_textured(scene, part), scene, part), frame), frame)
+        _picture(axes, in_strips(lambda part: whole(_textured(scene, part), part), frame), frame)
     else:
         colours = colours_of(scene, paint, values)
         if as_vectors:
@@ -117,7 +123,7 @@ def draw_scene(
             on_top = scene.inverted
 
             def draw(part: Frame) -> Floats:
-                return veiled(coloured_picture(scene.points, scene.skin, colours, part, on_top), scene, part)
+                return whole(coloured_picture(scene.points, scene.skin, colours, part, on_top), part)
 
             _picture(axes, in_strips(draw, frame), frame)
     if scene.is_flat and scene.map.mesh.dimension == 2:

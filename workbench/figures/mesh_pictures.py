@@ -193,6 +193,14 @@ def shades(points: Floats, skin: Skin) -> Floats:
     return result
 
 
+def blended(colours: Floats, amount: Floats, image: Floats) -> Floats:
+    """A picture (h, w, 4) below a veil: its `colours` (3,) or (h, w, 3), and how much (h, w) of each pixel it covers."""
+    below = image[..., 3] * (1.0 - amount)
+    whole = np.maximum(amount + below, 1e-12)
+    mixed = (amount[..., None] * colours + below[..., None] * image[..., :3]) / whole[..., None]
+    return np.concatenate([mixed, (amount + below)[..., None]], axis=2)
+
+
 def _averaged(image: Floats, raster: Raster) -> Floats:
     """(h, w, 4) from an image of `FINER` times as many pixels a side, and how much of each pixel is covered."""
     covered = raster.is_covered[..., None].astype(float)

@@ -69,6 +69,18 @@ class SolidLook:
 
 
 @dataclass(frozen=True)
+class CarriedLook:
+    """How a panel shows the surface that a solid carries: the measure of its own map with `parameters`, the `range` of its
+    colours and whether they are `logarithmic` (None: fitted), the `opacity` of the solid round it."""
+
+    colour: str = DEFAULT_MEASURE
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    range: tuple[float, float] | None = None
+    logarithmic: bool | None = None
+    opacity: float = 0.25
+
+
+@dataclass(frozen=True)
 class Panel:
     """A part of the page.
 
@@ -91,6 +103,7 @@ class Panel:
     glyphs : str          one of `GLYPHS`: lines along principal stretches, or images of circles; `glyph_count` at the most,
                           `glyph_size` times as large as usual
     look : SolidLook      how a solid is looked into; None: from outside
+    carried : CarriedLook     how the surface is shown that the solid carries; None: not at all
     quantity : str        of curves, one of `QUANTITIES`
     bins : int            of a histogram
     span : int            columns that it takes
@@ -115,6 +128,7 @@ class Panel:
     glyph_count: int = 300
     glyph_size: float = 1.0
     look: SolidLook | None = None
+    carried: CarriedLook | None = None
     quantity: str = "energy"
     bins: int = 48
     span: int = 1

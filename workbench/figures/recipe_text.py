@@ -12,7 +12,7 @@ import numpy as np
 
 from workbench.core.errors import WorkbenchError
 from workbench.figures.look_text import look_of, plain_look
-from workbench.figures.recipe import BACKGROUNDS, GLYPHS, KINDS, QUANTITIES, MapChoice, Page, Panel, Recipe
+from workbench.figures.recipe import BACKGROUNDS, GLYPHS, KINDS, QUANTITIES, CarriedLook, MapChoice, Page, Panel, Recipe
 from workbench.io.atomic import write_text
 from workbench.io.opening import SAMPLE
 from workbench.io.read import read_bytes
@@ -30,9 +30,9 @@ LARGEST_TEXT = 2**25
 LONGEST_CAPTION = 300
 LARGEST_PAGE = 60e6
 """Pixels of a page with a side as long as its width."""
-SESSION_FIELDS = tuple(name for name in schema.CHOICES if name not in ("carried", "time_limit"))
+SESSION_FIELDS = tuple(name for name in schema.CHOICES if name != "time_limit")
 """Choices that a map is solved with; how far a solver comes in a time differs from run to run."""
-FILES = ("source", "start_file")
+FILES = ("source", "start_file", "carried")
 OWN_FILES = ("target", "history")
 """Fields of a session, and of a map beside it, that name files."""
 
@@ -91,8 +91,13 @@ def plain_of(recipe: Recipe) -> dict[str, Any]:
 
 
 def _plain_panel(panel: Panel) -> dict[str, Any]:
-    plain = {"kind": panel.kind, **differing(panel, Panel(), tuple(name for name in PANEL if name != "look"))}
-    return plain if panel.look is None else plain | {"look": plain_look(panel.look)}
+    own = tuple(name for name in PANEL if name not in ("look", "carried"))
+    plain = {"kind": panel.kind, **differing(panel, Panel(), own)}
+    if panel.look is not None:
+        plain["look"] = plain_look(panel.look)
+    if panel.carried is not None:
+        plain["carried"] = differing(panel.carried, CarriedLook(), tuple(CARRIED))
+    return plain
 
 
 def _plain_map(choice: MapChoice) -> dict[str, Any]:
@@ -231,6 +236,17 @@ def _view(what: str, value: Any) -> tuple[tuple[float, ...], ...]:
     return axes
 
 
+def _carried(what: str, value: Any) -> CarriedLook:
+    return CarriedLook(**_checked(value, CARRIED, what))
+
+
+CARRIED: dict[str, schema.Check] = {
+    "colour": schema.text,
+    "parameters": schema.numbers_by_name,
+    "range": _range,
+    "logarithmic": schema.flag,
+    "opacity": _within(0.0, 1.0),
+}
 PAGE: dict[str, schema.Check] = {
     "width": _within(20.0, 2000.0),
     "dpi": _whole(36, 2400),
@@ -260,9 +276,11 @@ PANEL: dict[str, schema.Check] = {
     "glyph_count": _whole(1, MOST_GLYPHS),
     "glyph_size": _within(0.05, 20.0),
     "look": look_of,
+    "carried": _carried,
     "quantity": _one_of(tuple(QUANTITIES)),
     "bins": _whole(2, 1000),
     "span": _whole(1, 20),
 }
 assert set(PANEL) == {field.name for field in fields(Panel)}
+assert set(CARRIED) == {field.name for field in fields(CarriedLook)}
 assert set(PAGE) == {field.name for field in fields(Page)}

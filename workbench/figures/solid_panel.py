@@ -9,7 +9,7 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.measure import Measure
 from workbench.core.solid_look.drawn_faces import MadePoints
-from workbench.figures.mesh_pictures import FINER, Frame, Skin, nearness, skin_of
+from workbench.figures.mesh_pictures import FINER, Frame, Skin, blended, nearness
 
 if TYPE_CHECKING:
     from workbench.figures.figure_maps import FigureMap
@@ -44,12 +44,9 @@ def veiled(image: Floats, scene: Scene, part: Frame) -> Floats:
         return image
     solid = scene.map.mesh.vertices if scene.panel.kind == "source" else scene.map.positions
     points = solid if scene.turn is None else solid @ scene.turn.T
-    shell = skin_of(scene.map.mesh)
+    shell = scene.map.skin
     before = nearness(points, shell, part) - LAYER * float(np.ptp(points[:, 2]))
     is_before = before > nearness(scene.points, scene.skin, part)
     height, width = image.shape[:2]
     amount = look.shape.ghost * is_before.reshape(height, FINER, width, FINER).mean(axis=(1, 3))
-    below = image[..., 3] * (1.0 - amount)
-    whole = np.maximum(amount + below, 1e-12)
-    colours = (amount[..., None] * VEIL + below[..., None] * image[..., :3]) / whole[..., None]
-    return np.concatenate([colours, (amount + below)[..., None]], axis=2)
+    return blended(VEIL, amount, image)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from workbench.core.arrays import Floats
+from workbench.core.carried_surface import CarriedSurface
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
@@ -35,6 +36,7 @@ class Subject:
     kind: Kind
     positions: Floats
     rows: tuple[HistoryRow, ...] = ()
+    carried: CarriedSurface | None = None
 
     @property
     def choice(self) -> MapChoice:
@@ -43,7 +45,7 @@ class Subject:
     @property
     def map(self) -> FigureMap:
         anchors = np.array(self.session.anchor_vertices, dtype=np.int64)
-        return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows)
+        return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows, self.carried)
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS
 from workbench.core.measure import Measure
 from workbench.core.run import HistoryRow
-from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, Panel, SolidLook
+from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, CarriedLook, Panel, SolidLook
 from workbench.figures.recipe import PATTERNS as FIGURE_PATTERNS
 from workbench.session.session import Session
 
@@ -47,9 +47,11 @@ def subject_of(window: MainWindow) -> Subject | None:
         fixes=given.fixes,
         anchor_vertices=given.anchor_vertices,
         anchor_targets=given.anchor_targets,
+        carried=window.carried.source,
     )
     stem = Path(given.source.replace("sample:", "")).stem
-    return Subject(stem, session, loaded.mesh, loaded.kind, shown.positions, rows_of(window.history))  # type: ignore[arg-type]
+    rows, carried = rows_of(window.history), window.carried.surface
+    return Subject(stem, session, loaded.mesh, loaded.kind, shown.positions, rows, carried)  # type: ignore[arg-type]
 
 
 def rows_of(history: History) -> tuple[HistoryRow, ...]:
@@ -93,6 +95,8 @@ def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     caption = "Source" if kind == "source" else "Target"
     panel = Panel(kind, (NAME,), caption=caption, edges=edges, view=_axes(pane.view), look=_look(window))
     panel = replace(panel, **_glyphs(window, "source" if kind == "source" else "target"))
+    if pane in (window.source, window.target):
+        panel = replace(panel, carried=_carried(window))
     if style in PATTERNS:
         return replace(panel, colour=style if style in FIGURE_PATTERNS else CHEQUERED)
     return _coloured(window, window.colouring.range_of(pane), replace(panel, bar=True))
@@ -106,6 +110,16 @@ def _look(window: MainWindow) -> SolidLook | None:
     peel_by = window.quantities[volume.peel_by].measure if volume.peel_by in window.quantities else Measure(DEFAULT_MEASURE)
     marked = tuple(window.brush.simplices.tolist()) if volume.look.only_marked else ()
     return SolidLook(volume.look, peel_by.text, dict(peel_by.parameters), marked)
+
+
+def _carried(window: MainWindow) -> CarriedLook | None:
+    """How the large views show the surface that their solid carries."""
+    if window.carried.surface is None:
+        return None
+    colours = window.carried.range
+    measure = colours.quantity.measure
+    ends = (colours.low, colours.high) if colours.low < colours.high else None
+    return CarriedLook(measure.text, dict(measure.parameters), ends, colours.is_logarithmic, window.carried.opacity)
 
 
 def _glyphs(window: MainWindow, place: str) -> dict[str, Any]:
