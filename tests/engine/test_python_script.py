@@ -15,9 +15,12 @@ import pytest
 
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
+from workbench.core.method import Parameter
+from workbench.core.named_formulas import NamedFormula
 from workbench.engine.python_script import MOST_INLINE, literal, write_script
 from workbench.engine.replay import replay
 from workbench.engine.session_file import source_digest
+from workbench.io.formula_store import delete_formula, save_formula
 from workbench.io.opening import open_source
 from workbench.session.journal import Leg
 from workbench.session.record import SessionRecord
@@ -119,6 +122,17 @@ def test_a_map_of_a_hand_is_measured(square: Mesh, case: str, tmp_path: Path) ->
     record = recorded(SessionRecord(Session(case, distortion="dirichlet"), map=square.vertices * [1.5, 0.8]))
     assert record.energy == pytest.approx(1.5**2 + 0.8**2)
     assert not complaint(written(record, tmp_path))
+
+
+def test_a_formula_of_the_users_own_stands_in_the_script(case: str, tmp_path: Path) -> None:
+    blend = NamedFormula("Of a script", "lam*mips + (1 - lam)*arap", (Parameter("lam", float, 0.25, "", 0.0, 1.0),))
+    id = save_formula(blend)
+    try:
+        path = written(recorded(SessionRecord(Session(case, distortion=id, solver="slim", iterations=4))), tmp_path)
+    finally:
+        delete_formula(id)
+    assert id not in path.read_text()
+    assert not complaint(path)
 
 
 def test_a_script_never_writes_over_its_mesh(square: Mesh, tmp_path: Path) -> None:
