@@ -185,3 +185,18 @@ def test_letting_go_is_undone_and_done_again(carrying: MainWindow, ring: tuple[P
     assert carried.source == str(ring[0])
     undoing.redo()
     qtbot.waitUntil(lambda: carried.surface is None)
+
+
+def test_a_pane_of_a_split_shows_the_surface_too_and_alone_where_that_is_asked(carrying: MainWindow, qtbot: QtBot) -> None:
+    carried, splitting = carrying.carried, carrying.splitting
+    pane = splitting.split("target", "below")
+    assert pane is not None
+    assert len(carried._layers) == 3 and carried._layers[2]._view is pane.view
+    np.testing.assert_array_equal(carried._layers[2]._points, carried._layers[1]._points)
+    pane.side_chosen.emit("carried")
+    alone = splitting.panes[0]
+    qtbot.wait(50)
+    assert alone.view.surface._actor.GetProperty().GetOpacity() == 0.0
+    assert carrying.target.view.surface._actor.GetProperty().GetOpacity() > 0.0
+    splitting.close_view(alone.objectName())
+    assert len(carried._layers) == 2

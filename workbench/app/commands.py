@@ -238,6 +238,8 @@ class Commands(QObject):
     def fit(self) -> None:
         self._window.source.view.fit()
         self._window.presenter.refit_target()
+        for pane in self._window.splitting.panes:
+            pane.view.fit()
 
     def hold_ranges(self) -> None:
         self._window.quantities.hold_all(self._window.actions_by_name["lock"].isChecked())

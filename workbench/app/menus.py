@@ -120,6 +120,7 @@ def fill_screenshots(window: MainWindow, menu: QMenu) -> None:
     menu.clear()
     menu.addAction(window.actions_by_name["shot-window"])
     parts: list[tuple[str, QWidget]] = [("source", window.source.view), ("target", window.target.view)]
+    parts += [(f"{pane.title}, split off: {pane.chooser.currentText()}", pane.view) for pane in window.splitting.panes]
     parts += [(dock.windowTitle(), dock) for dock in window.docks[1:]]
     for name, widget in parts:
         action = menu.addAction(f"{name[0].upper()}{name[1:]}…")

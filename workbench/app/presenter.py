@@ -164,6 +164,8 @@ class Presenter(QObject):
         assert loaded is not None
         surface = pane.view.show_geometry(geometry)
         surface.set_cut_edges(loaded.cut_edges)
+        if pane.shows_carried_alone:
+            surface.set_opacity(0.0)
         self._colouring.apply(pane)
 
     def _draw_pane(self, pane: SplitPane) -> None:

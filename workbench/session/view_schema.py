@@ -17,7 +17,7 @@ DEEPEST = 8
 LARGEST_SIZE = 100_000
 MOST_RANGES = 500
 SPLITS = ("right", "below")
-SIDES = ("source", "target")
+SIDES = ("source", "target", "carried")
 PANE = re.compile(r"pane-[1-9][0-9]?")
 
 Tree = dict[str, Any]

@@ -15,6 +15,7 @@ from workbench.app.carrying.carried_layer import CarriedLayer
 from workbench.app.carrying.carried_quantities import CARRIED_QUANTITIES
 from workbench.app.colour_range import ColourRange
 from workbench.app.document import Document
+from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
 from workbench.core.carried_surface import CarriedSurface
@@ -22,6 +23,9 @@ from workbench.core.mesh import Mesh
 from workbench.engine.carried_source import carry_source
 from workbench.engine.carrying_kernels import compile_carrying
 from workbench.io.write import write_surface
+
+
+NOTHING = "Nothing is carried: File > Carry a surface puts one into a solid."
 
 
 class CarriedView(QObject):
@@ -38,7 +42,7 @@ class CarriedView(QObject):
         """`panes`: source, target."""
         super().__init__(parent)
         self._document = document
-        self._panes = tuple(panes)
+        self._panes = list(panes)
         self._ranges = {quantity.id: ColourRange(quantity) for quantity in CARRIED_QUANTITIES}
         self.range = next(iter(self._ranges.values()))
         for colour_range in self._ranges.values():
@@ -139,7 +143,7 @@ class CarriedView(QObject):
         for colour_range in self._ranges.values():
             colour_range.forget()
         self.bar.caption.setText(f"{Path(surface.name).stem}, {surface.simplex_count} triangles")
-        self._layers[0].move(surface.vertices)
+        self._move(surface.vertices, of_source=True)
         self.bar.show()
         self.set_opacity(self.opacity)
         self.show_map()
@@ -159,8 +163,7 @@ class CarriedView(QObject):
         self.bar.legend.show_values(values)
         for layer in self._layers:
             layer.paint(values)
-        self._layers[-1].move(moved)
-        self._panes[-1].view.refresh()
+        self._move(moved, of_source=False)
 
     def show_quantity(self, id: str) -> None:
         """Colour the surface by another of its measures."""
@@ -180,6 +183,37 @@ class CarriedView(QObject):
             layer.show_range(self.range)
         self._refresh()
 
+    # ------------------------------------------------------------------------------------------ panes of splits
+
+    def add_pane(self, pane: ViewPane) -> None:
+        """Draw the surface in one more view."""
+        self._panes.append(pane)
+        if self.surface is not None:
+            layer = CarriedLayer(pane.view, self.surface.surface.simplices, self.surface.surface.vertex_count)
+            self._layers.append(layer)
+            self._move(self.surface.surface.vertices, of_source=True)
+            self.show_map()
+            layer.show_range(self.range)
+        self._set_solid(self.opacity)
+
+    def remove_pane(self, pane: ViewPane) -> None:
+        """A view is gone."""
+        row = self._panes.index(pane)
+        del self._panes[row]
+        if self._layers:
+            self._layers.pop(row).remove()
+
+    def _is_source(self, pane: ViewPane) -> bool:
+        return pane.is_source if isinstance(pane, SplitPane) else pane is self._panes[0]
+
+    def _move(self, vertices: Floats, *, of_source: bool) -> None:
+        """Put the surface (k, 3) where it is in the source, or in the map."""
+        for pane, layer in zip(self._panes, self._layers, strict=False):
+            if self._is_source(pane) is of_source:
+                layer.move(vertices)
+                if not of_source:
+                    pane.view.refresh()
+
     def set_opacity(self, opacity: float) -> None:
         """How much of the solid is seen while a surface is carried: 0 nothing, 1 nothing but the solid."""
         self.opacity = opacity
@@ -187,8 +221,11 @@ class CarriedView(QObject):
 
     def _set_solid(self, opacity: float) -> None:
         for pane in self._panes:
-            if self.surface is not None and pane.view.surface is not None:
-                pane.view.surface.set_opacity(opacity)
+            if isinstance(pane, SplitPane) and pane.shows_carried_alone and self._document.mesh is not None:
+                pane.view.overlay.message = "" if self.surface is not None else NOTHING
+            shows_all = not (isinstance(pane, SplitPane) and pane.shows_carried_alone)
+            if pane.view.surface is not None and (self.surface is not None or not shows_all):
+                pane.view.surface.set_opacity(opacity if shows_all else 0.0)
         self._refresh()
 
     def _refresh(self) -> None:

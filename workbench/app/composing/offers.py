@@ -72,6 +72,8 @@ def offers_of(window: MainWindow) -> list[Offer]:
         Offer("Target", _view(window, window.target, "map", edges)),
     ]
     for pane in window.splitting.panes:
+        if pane.shows_carried_alone:
+            continue  # figures have no carried surfaces
         panel = _view(window, pane, "source" if pane.is_source else "map", edges)
         found.append(Offer(f"{pane.title}, split off: {pane.chooser.currentText()}", panel))
     for dock in window.maps:

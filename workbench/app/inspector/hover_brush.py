@@ -28,8 +28,13 @@ class HoverBrush(QObject):
         self._timer.setInterval(PAUSE)
         self._timer.timeout.connect(self._look)
         for view in views:
-            view.overlay.moved.connect(lambda event, v=view: self._move(v, event))
-            view.overlay.left.connect(self._leave)
+            self.add(view)
+
+    def add(self, view: MeshView) -> None:
+        """Look at what lies under the pointer in one more view."""
+        view.overlay.moved.connect(lambda event: self._move(view, event))
+        view.overlay.left.connect(self._leave)
+        view.destroyed.connect(self._leave)
 
     def stop(self) -> None:
         self._timer.stop()

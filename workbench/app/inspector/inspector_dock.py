@@ -196,6 +196,11 @@ class InspectorDock(QDockWidget):
         """Mark the triangle under the pointer in these views while the plane is to be seen."""
         self._hover = HoverBrush(self._brush, views, self.plane.isVisible)
 
+    def follow_too(self, view: MeshView) -> None:
+        """The same in one more view."""
+        if self._hover is not None:
+            self._hover.add(view)
+
     @property
     def pages(self) -> tuple[Page, ...]:
         found = (self.tabs.widget(row) for row in range(self.tabs.count()))

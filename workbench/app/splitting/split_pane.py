@@ -11,7 +11,8 @@ from workbench.app.quantity_book import QuantityBook
 from workbench.app.theme import Theme
 from workbench.app.views.pane import ViewPane
 
-SIDES = {"source": "Source", "target": "Target"}
+SIDES = {"source": "Source", "target": "Target", "carried": "Carried surface"}
+"""What a pane can show: the mesh as it was opened, the map, or what the map of a solid carries, without the solid."""
 
 
 class SplitPane(ViewPane):
@@ -31,7 +32,7 @@ class SplitPane(ViewPane):
         for id, label in SIDES.items():
             self.sides.addItem(label, id)
         self.sides.setCurrentIndex(self.sides.findData(side))
-        self.sides.setToolTip("What this view shows: the mesh as it was opened, or the map")
+        self.sides.setToolTip("What this view shows: the mesh as it was opened, the map, or the carried surface alone")
         self.sides.activated.connect(lambda row: self.side_chosen.emit(str(self.sides.itemData(row))))
         layout = self.header.layout()
         assert isinstance(layout, QHBoxLayout)
@@ -40,7 +41,13 @@ class SplitPane(ViewPane):
         self.chooser.setMinimumContentsLength(10)
         self.chooser.setMinimumWidth(60)
         self.sides.setMinimumWidth(56)
+        self.chooser.setVisible(not self.shows_carried_alone)
 
     @property
     def is_source(self) -> bool:
         return self.side == "source"
+
+    @property
+    def shows_carried_alone(self) -> bool:
+        """Whether the solid itself is left out."""
+        return self.side == "carried"

@@ -122,13 +122,12 @@ class Splitting(QObject):
             self._window.status.say(FULL)
             return None
         leaf = self._leaves[name]
-        pane = self.make(self._free_name(), "source" if leaf.is_source else "target")
+        pane = self.make(
+            self._free_name(), leaf.pane.side if isinstance(leaf.pane, SplitPane) else "source" if leaf.is_source else "target"
+        )
         self._grid_of(leaf).split(leaf.widget, side, pane)
         self._begin(pane, self.shown_in(leaf))
-        if leaf.view.geometry_shown is not None:
-            pane.view.set_camera(replace(leaf.view.camera), fits=leaf.view.shows_everything)
-            if leaf.view.shows_everything:
-                pane.view.fit()
+        _look_alike(pane.view, leaf.view)
         self.active = pane.objectName()
         self.changed.emit()
         return pane
@@ -164,12 +163,14 @@ class Splitting(QObject):
         window.connect_tool(leaf.tool)
         window.presenter.add_pane(pane)
         window.look.linked.add(pane.view)
+        window.carried.add_pane(pane)
+        window.inspector.follow_too(pane.view)
         self.pane_made.emit(leaf)
 
     def _change_side(self, name: str, side: str) -> None:
         """Show the source in the place of the target, or the other way round."""
         leaf = self._leaves[name]
-        if side not in SIDES or leaf.is_source is (side == "source"):
+        if side not in SIDES or not isinstance(leaf.pane, SplitPane) or leaf.pane.side == side:
             return
         shown = self.shown_in(leaf)
         grid = self._grid_of(leaf)
@@ -178,9 +179,7 @@ class Splitting(QObject):
         grid.replace(leaf.widget, pane)
         leaf.widget.deleteLater()
         self._begin(pane, shown)
-        partner = self._leaves[side].view
-        if partner.geometry_shown is not None:
-            pane.view.set_camera(partner.camera, fits=partner.shows_everything)
+        _look_alike(pane.view, self._leaves["source" if side == "source" else "target"].view)
         self.changed.emit()
 
     def close_view(self, name: str) -> None:
@@ -216,6 +215,7 @@ class Splitting(QObject):
         assert isinstance(leaf.pane, SplitPane)
         self.pane_gone.emit(leaf)
         window = self._window
+        window.carried.remove_pane(leaf.pane)
         window.look.linked.remove(leaf.view)
         window.presenter.remove_pane(leaf.pane)
         self.links.remove(leaf.view)
@@ -255,7 +255,7 @@ class Splitting(QObject):
 
     def set_visible_all(self) -> None:
         """Show source and target."""
-        for name in SIDES:
+        for name in ("source", "target"):
             if not self.is_visible(name):
                 self.set_visible(name, True)
 
@@ -292,7 +292,7 @@ class Splitting(QObject):
     def fill_views(self, menu: QMenu) -> None:
         """Source and target, to be shown again."""
         menu.clear()
-        for name, text in SIDES.items():
+        for name, text in (("source", SIDES["source"]), ("target", SIDES["target"])):
             action = menu.addAction(text)
             action.setCheckable(True)
             action.setChecked(self.is_visible(name))
@@ -317,3 +317,11 @@ class Splitting(QObject):
         self._window.theme_switch.changed.disconnect(self.set_theme)
         for pane in self.panes:
             pane.view.close_view()
+
+
+def _look_alike(view: MeshView, other: MeshView) -> None:
+    """Look from where another view of the same kind does; what shows everything goes on doing so."""
+    if other.geometry_shown is not None:
+        view.set_camera(replace(other.camera), fits=other.shows_everything)
+        if other.shows_everything:
+            view.fit()
