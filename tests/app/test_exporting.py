@@ -31,7 +31,7 @@ LONG = 60_000
 def solved(qapp, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:  # type: ignore[no-untyped-def]
     """A window with a mesh of a file, anchors, and a map that the solver has finished."""
     folder = tmp_path_factory.mktemp("exports")
-    mesh = make_sample("gingerbread")
+    mesh = make_sample("gingerbread", 500)
     np.savez(folder / "man.npz", V=mesh.vertices, S=mesh.simplices)
     window = new_window(folder / "window.ini", engine_worker, "light")
     window.start(str(folder / "man.npz"))
@@ -160,8 +160,9 @@ def test_the_preference_keeps_pictures_free_of_sessions(window: MainWindow, qtbo
 
 
 def test_a_place_that_cannot_be_written_is_told(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
-    for name in ("export-obj", "export-history", "export-target"):
+    for name in ("export-obj", "export-measures", "export-target"):
         window.error_bar.dismiss()
-        window.commands.exporting.export(name, str(tmp_path / "none" / f"x{Path(KINDS[name].name).suffix}"))
-        qtbot.waitUntil(lambda: "no folder" in window.error_bar.sentence.text(), timeout=LONG)
+        folder = tmp_path / f"none-{name}"
+        window.commands.exporting.export(name, str(folder / f"x{Path(KINDS[name].name).suffix}"))
+        qtbot.waitUntil(lambda: f"no folder {folder}" in window.error_bar.sentence.text(), timeout=LONG)  # noqa: B023
     assert list(tmp_path.iterdir()) == []
