@@ -57,15 +57,6 @@ GESTURES: dict[str, Rows] = {
         ("X", "from A to B and back"),
         ("L", "the newest map, as it comes"),
     ),
-    "Time line": (
-        ("Drag", "looks back; the solver goes on meanwhile"),
-        ("Left, Right", "by one map, with Shift by ten"),
-        ("Home, End", "the first map, the newest"),
-        ("Space", "plays it, or pauses"),
-        ("A, B", "mark the moment that is shown; once more lets it go"),
-        ("X", "from A to B and back"),
-        ("L", "the newest map, as it comes"),
-    ),
     "Formula": (
         ("Enter", "takes the formula that was typed"),
         ("Esc", "brings back the one before"),
