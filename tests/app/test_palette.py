@@ -121,9 +121,11 @@ def test_everything_in_menus_and_choices_is_listed(window: MainWindow) -> None:
         ("Choices", "Start", "Rest (the source itself)"),
         ("Show", "Histogram", "Determinant"),
         ("Help", "About"),
+        ("Preferences", "Appearance", "Size of text…"),
     ):
         assert expected in found
     assert len({id(entry) for entry in entries}) == len(entries) == len({(entry.place, entry.title) for entry in entries})
+    assert all(entry.reason for entry in entries if not entry.is_enabled)
     for name, action in window.actions_by_name.items():
         assert any(entry.name == name for entry in entries) == action.isVisible(), name
 

@@ -12,7 +12,8 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QComboBox, QMenu
 
 from workbench.app.palette.entry import Entry
-from workbench.app.palette.reasons import reason_of
+from workbench.app.palette.reasons import EMPTY, reason_of
+from workbench.app.preferences.catalogue import PREFERENCES
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -32,6 +33,7 @@ def entries_of(window: MainWindow) -> list[Entry]:
     entries += _own_formulas(window, seen)
     entries += _shown(window)
     entries += _races(window)
+    entries += _preferences(window)
     return entries
 
 
@@ -65,6 +67,8 @@ def _of_action(window: MainWindow, action: QAction, path: tuple[str, ...], seen:
         return
     seen.add(action)
     is_enabled = action.isEnabled()
+    if not is_enabled and path and path[-1] in EMPTY:
+        return
     tip = action.toolTip()
     yield Entry(
         plain(action.text()),
@@ -158,6 +162,19 @@ def _shown(window: MainWindow) -> Iterator[Entry]:
                 lift=-1.0,
                 also=quantity.id,
             )
+
+
+def _preferences(window: MainWindow) -> Iterator[Entry]:
+    """Each line of the dialog, which opens on its page."""
+    for preference in PREFERENCES:
+        yield Entry(
+            f"{preference.label}…",
+            ("Preferences", preference.page),
+            partial(window.preferring.ask, preference.page),
+            tip=preference.parameter.description,
+            lift=-8.0,  # what does something at once comes first
+            also=preference.name,
+        )
 
 
 def _races(window: MainWindow) -> Iterator[Entry]:

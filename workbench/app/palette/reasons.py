@@ -10,10 +10,14 @@ REASONS = {
     "redo": "nothing was taken back",
     "cut": NO_SOLID,
     "uncut": NO_SOLID,
+    **dict.fromkeys(("past-live", "past-go-on"), "the views show the newest map"),
 }
 BY_MENU = {
-    "Carry a surface": "only a solid carries a surface, and only one that is carried can be saved or let go",
+    "Carry a surface": "no solid is open, or it carries nothing",
+    "Own formulas": "the distortion in force is none of your own",
 }
+EMPTY = frozenset({"Open recent", "Recent sessions", "Recent formulas"})
+"""Menus whose only entry, while there is nothing in them, says so."""
 
 
 def reason_of(name: str, path: tuple[str, ...]) -> str:
