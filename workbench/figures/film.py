@@ -243,5 +243,3 @@ def _font(size: int):  # type: ignore[no-untyped-def]
     from PIL import ImageFont
 
     return ImageFont.truetype(findfont("DejaVu Sans"), size)
-
-
