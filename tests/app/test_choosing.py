@@ -156,6 +156,16 @@ def test_several_anchors_are_clicked_moved_together_grouped_and_removed(window: 
     window.undoing.undo()
     assert not document.anchors.groups
     window.undoing.redo()
+    hand.press(pixel_of(view, 20), Qt.MouseButton.RightButton)
+    hand.release(pixel_of(view, 20), Qt.MouseButton.RightButton)
+    assert 20 not in document.anchors, "one that is not selected goes at once"
+    window.undoing.undo()
+    document.select_all([0, 20, 136])
+    hand.press(pixel_of(view, 20), Qt.MouseButton.RightButton)
+    hand.release(pixel_of(view, 20), Qt.MouseButton.RightButton)
+    texts = [action.text().replace("&", "") for action in window.handling.menu.menu.actions()]
+    window.handling.menu.menu.close()
+    assert "Let go of all 3 selected" in texts and "Group anchors" in texts and 20 in document.anchors
     hand.click(pixel_of(view, 20))
     hand.click(pixel_of(view, 0))
     assert set(document.selected_anchors.tolist()) == {0, 136}, "one of a group stands for all"

@@ -77,6 +77,10 @@ def test_g_moves_with_the_pointer_and_no_button_and_a_click_makes_one_step(windo
     assert window.undoing.history.names == (*steps, "Move 2 anchors")
     window.undoing.undo()
     np.testing.assert_array_equal(now(window, 136, 140), before)
+    QTest.keyClick(window, Qt.Key.Key_G)
+    hand.move(begin)
+    Hand(window.source.view).click(pixel_of(window.source.view, 0))
+    assert not window.document.is_held and set(window.document.anchors.targets) == {136, 140}, "nor does one in another view"
 
 
 @pytest.mark.parametrize("way_out", ["escape", "right click"])
@@ -247,12 +251,20 @@ def test_anchors_near_by_follow_as_far_as_the_wheel_says(window: MainWindow) -> 
     assert narrow[0] == 1.0 and 0.0 < narrow[1] < 1.0 and narrow[-1] == 0.0
     assert "reach" in view.overlay.scene.sketches and "Wheel" in view.overlay.scene.hint
     where = QPointF(begin)
-    for _ in range(3):
+
+    def turn_wheel(steps: int) -> None:
         wheel = QWheelEvent(
-            where, view.overlay.mapToGlobal(where), QPoint(), QPoint(0, 120), Qt.MouseButton.NoButton,
+            where, view.overlay.mapToGlobal(where), QPoint(), QPoint(0, 120 * steps), Qt.MouseButton.NoButton,
             NONE, Qt.ScrollPhase.NoScrollPhase, False,
         )  # fmt: skip
         QApplication.sendEvent(view.overlay, wheel)
+
+    for steps in (1, 1, 1, -3):
+        wider = shares()
+        turn_wheel(steps)
+        assert (np.count_nonzero(shares()) - np.count_nonzero(wider)) * steps >= 0
+    np.testing.assert_allclose(shares(), narrow, atol=1e-9, err_msg="who is not reached any longer goes back")
+    turn_wheel(3)
     assert view.camera.half_height == scale, "the wheel does not zoom meanwhile"
     assert np.count_nonzero(shares()) > np.count_nonzero(narrow)
     hand.release(begin + QPoint(-28, 20))

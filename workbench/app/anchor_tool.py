@@ -115,7 +115,7 @@ class AnchorTool(NavigationTool):
         scene = self.view.overlay.scene
         if self.is_picking:
             self.picked.emit(-1)
-        elif vertex >= 0 and not scene.is_grouped(vertex):
+        elif vertex >= 0 and not scene.is_grouped(vertex) and not (vertex in scene.selected and len(scene.selected) > 1):
             self.anchor_unwanted.emit(vertex)
         elif self._may_anchor():
             self.menu_wanted.emit(vertex, x, y)

@@ -117,7 +117,7 @@ class AnchorDesk(QObject):
         """Let the falloff reach farther while anchors are held, or less far."""
         if self.gathered is not None and self.company.customs.has_falloff and self._wanted is not None:
             self.company.widen(steps)
-            self._train = self.gathered.train(self.company.radius)
+            self._train = self.gathered.train(self.company.radius, None if self._train is None else self._train.vertices)
             self.train_changed.emit()
             self._send(self._wanted, self._is_held, time.perf_counter())
 

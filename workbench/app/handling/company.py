@@ -53,8 +53,11 @@ class Gathered:
     away: Floats | None
     away_twins: Floats | None
 
-    def train(self, radius: float) -> Train:
-        """Those that move where a falloff reaches as far as `radius`, in units of the source."""
+    def train(self, radius: float, also: Integers | None = None) -> Train:
+        """Those that move where a falloff reaches as far as `radius`, in units of the source.
+
+        `also` : (j,) anchors that have moved before: where it no longer reaches them they go back
+        """
         if self.away is None:
             vertices = np.unique(np.concatenate([self.held, self.twins]))
             shares, mirrored = (np.isin(vertices, chosen).astype(np.float64) for chosen in (self.held, self.twins))
@@ -62,6 +65,10 @@ class Gathered:
             vertices = self.anchors.vertices
             shares = falloff(self.away[vertices], radius)
             mirrored = np.zeros_like(shares) if self.away_twins is None else falloff(self.away_twins[vertices], radius)
+            moves = shares + mirrored > 0.0
+            if also is not None:
+                moves |= np.isin(vertices, also)
+            vertices, shares, mirrored = vertices[moves], shares[moves], mirrored[moves]
         return Train(vertices, self.anchors.targets_of(vertices), shares, mirrored, self.image)
 
 

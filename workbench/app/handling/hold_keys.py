@@ -65,5 +65,5 @@ class HoldKeys(KeyTrap):
         is_press = event.type() == QEvent.Type.MouseButtonPress
         if self.is_free and is_press and isinstance(watched, QWidget) and watched is not self._own:
             self.confirmed.emit()  # the hand has gone on to something else
-            return False
+            return isinstance(watched, type(self._own))  # in another view the click means no more than that
         return super().eventFilter(watched, event)
