@@ -46,6 +46,7 @@ def open_log(folder: Path | None = None) -> logging.Handler | None:
     except OSError:
         return None
     handler.setFormatter(logging.Formatter(FORM))
+    handler.setLevel(logging.INFO)  # sentences of the status line come and go
     return handler
 
 
