@@ -44,7 +44,7 @@ class Subject:
 
     @property
     def map(self) -> FigureMap:
-        anchors = np.array(self.session.anchor_vertices, dtype=np.int64)
+        anchors = np.array(self.session.in_force.anchor_vertices, dtype=np.int64)
         return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows, self.carried)
 
 
