@@ -139,6 +139,13 @@ class Settings:
         """What was chosen there, as it stands in the file; empty where nothing was."""
         return self._table("preferences")
 
+    def save_film(self, choices: dict[str, Any]) -> None:
+        self._store.setValue("film", json.dumps(choices))
+
+    def film(self) -> dict[str, Any]:
+        """Size, pace and looks of the last film; empty where there was none."""
+        return self._table("film")
+
     def save_handling(self, customs: dict[str, Any]) -> None:
         self._store.setValue("handling", json.dumps(customs))
 

@@ -18,7 +18,7 @@ from workbench.engine.log_file import log_path
 from workbench.engine.system_libraries import install_command, missing_libraries
 
 DISTRIBUTION = "distortion-workbench"
-OPTIONAL = ("pypardiso", "pytetwild")
+OPTIONAL = ("pypardiso", "pytetwild", "imageio-ffmpeg")
 PROBE = """
 import sys
 from PySide6.QtGui import QGuiApplication
