@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import signal
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from workbench.api import Anchors, Distortion, Mesh, Problem, Status, WorkbenchError, load, solve, solver
 from workbench.cli.main import main
 from workbench.core.run import HistoryRow
+from workbench.notebook.wording import for_scripts
 
 ANCHORS = {0: (0.1, -0.2), 48: (1.4, 1.1)}
 
@@ -131,3 +133,25 @@ def test_progress_is_one_line_and_only_for_people(square_file: Path, capsys, mon
 def test_what_does_not_fit_is_refused_with_a_sentence(square_file: Path, wishes: dict, words: str) -> None:
     with pytest.raises(WorkbenchError, match=words):
         solve(square_file, progress=False, **wishes)
+
+
+def test_sentences_name_arguments_not_options(square_file: Path) -> None:
+    with pytest.raises(WorkbenchError, match=re.escape('parameters={"t": ...}')):
+        solve(square_file, "sum(sigma^2) + t/det^2")
+    result = solve(square_file, anchors=ANCHORS, iterations=1, progress=False)
+    assert result.status is Status.MAX_ITERATIONS
+    assert "raise iterations to go on" in result.message
+    assert for_scripts("apply --fix largest,cut.") == 'apply fixes="largest,cut".'
+    assert not any("--" in for_scripts(status.value) for status in Status)
+
+
+def test_equations_hold(square_file: Path, tmp_path: Path) -> None:
+    line = "x[10] - x[11] = -0.25"
+    (tmp_path / "equations.txt").write_text(line)
+    found = [solve(square_file, equations=given, progress=False) for given in (line, [line], tmp_path / "equations.txt")]
+    for result in found:
+        assert result.positions[11, 0] - result.positions[10, 0] == pytest.approx(0.25, abs=1e-9)
+        assert result.energy == found[0].energy
+    kept = solve(found[0].problem, init=found[0], progress=False)
+    assert kept.positions[11, 0] - kept.positions[10, 0] == pytest.approx(0.25, abs=1e-9)
+    assert kept.energy == pytest.approx(found[0].energy, rel=1e-6)

@@ -21,6 +21,7 @@ from workbench.io.measure_text import measure_lines, measure_rows
 from workbench.io.opening import SAMPLE
 from workbench.notebook.pictures import html_lines, html_table
 from workbench.notebook.source import Source, source_of
+from workbench.notebook.wording import in_words_of_scripts
 
 if TYPE_CHECKING:
     from workbench.notebook.solution import Solution
@@ -65,6 +66,7 @@ class Measured(Mapping[str, Any]):
         return html_table(measure_rows(self.values_by_key)) + html_lines(below)
 
 
+@in_words_of_scripts
 def measure(
     what: Solution | Source | MapGiven,
     target: ArrayLike | Path | None = None,

@@ -25,6 +25,7 @@ from workbench.io.write import write_map
 from workbench.notebook.measuring import Measured, measured_map
 from workbench.notebook.pictures import WithPicture, html_page, picture_of
 from workbench.notebook.source import Source
+from workbench.notebook.wording import for_scripts
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ class Solution(WithPicture):
     @property
     def message(self) -> str:
         """What happened and what to try, in a sentence."""
-        return self.fault or self.status.value
+        return for_scripts(self.fault or self.status.value)
 
     @property
     def energy(self) -> float:

@@ -12,6 +12,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from workbench.core.distortion import Distortion
+from workbench.core.linear_equations import read_equations
 from workbench.core.mesh import Mesh
 from workbench.core.problem import Criteria, Problem
 from workbench.core.run import HistoryRow, RunResult
@@ -24,11 +25,13 @@ from workbench.engine.preparation import Prepared, Wishes, prepare
 from workbench.notebook.progress import ProgressLine
 from workbench.notebook.solution import Solution
 from workbench.notebook.source import AnchorsGiven, Source, anchors_given, source_of, source_of_problem
+from workbench.notebook.wording import in_words_of_scripts
 
 StartGiven = str | os.PathLike[str] | ArrayLike | Solution | None
 """An initializer, a file, positions (n, d), or an earlier result to go on from; None: the default of the kind of map."""
 
 
+@in_words_of_scripts
 def solve(
     what: Source | Problem | Mesh | str | os.PathLike[str],
     distortion: str | Distortion | None = None,
@@ -87,7 +90,7 @@ def solve(
         init_parameters=init_parameters or {},
         match_area=match_area,
         anchors=problem.anchors if problem is not None and held is None else held,
-        equations=os.fspath(equations) if isinstance(equations, os.PathLike) else equations or (),
+        equations=_equations(equations),
         pin_boundary=pin_boundary,
         allow_inversions=allow_inversions or (problem is not None and problem.density.allow_inversions),
         seed=seed,
@@ -112,6 +115,13 @@ def solve(
                 on_row=on_row,
             )
     return Solution(prepared, result, fault)
+
+
+def _equations(given: str | os.PathLike[str] | Sequence[str] | None) -> str | Sequence[str]:
+    """The name of a file, or lines; a text with an equals sign that names no file is lines."""
+    if isinstance(given, str) and "=" in given and not os.path.exists(given):
+        return read_equations(given)
+    return os.fspath(given) if isinstance(given, os.PathLike) else given or ()
 
 
 def _exactly(

@@ -23,6 +23,7 @@ from workbench.engine.starts import adjusted_start
 from workbench.io.mesh_file import MeshFile
 from workbench.io.opening import OpenedSource, map_from_file, open_source
 from workbench.notebook.pictures import WithPicture, html_page, picture_of
+from workbench.notebook.wording import in_words_of_scripts
 
 AnchorsGiven = Anchors | Mapping[int, Sequence[float]] | tuple[ArrayLike, ArrayLike] | str | os.PathLike[str] | None
 """Anchors, vertex -> target, (vertices (k,), targets (k, d)), or a CSV file; None: those that come with the mesh."""
@@ -127,6 +128,7 @@ class Source(WithPicture):
         return html_page(self.png, rows, self.notes)
 
 
+@in_words_of_scripts
 def load(path: str | os.PathLike[str], *, kind: str = "auto", fixes: Sequence[str] = (), tets: bool = False) -> Source:
     """A mesh file, a case, or `sample:ID`, opened as `workbench solve` opens it.
 
