@@ -356,3 +356,10 @@ def test_a_film_is_made_beside_the_window(line: TimeLine, window: MainWindow, qt
     line.filming.save(str(tmp_path / "c.avi"))
     assert ".gif" in dialog.note.text()
     dialog.close()
+    window.actions_by_name["film"].trigger()
+    again = line.filming.dialog
+    assert again is not None
+    assert again.plan == dialog.plan, "the next film begins with the choices of the last"
+    again.take_kept({"width": "wide", "height": -3, "rate": True, "ground": 7, "captions": "maybe", "speed": 1e9})
+    assert again.plan.film.width == 200
+    again.close()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QCloseEvent, QImage, QPixmap
@@ -172,6 +173,39 @@ class FilmDialog(QDialog):
             has_captions=self.captions.isChecked(), repeats=self.repeats.isChecked(),
         )  # fmt: skip
         return FilmPlan(film, str(self.part.currentData()), str(self.pace.currentData()), self.speed.value())
+
+    def kept(self) -> dict[str, Any]:
+        """Choices for the next film, but those that belong to this record."""
+        return {
+            **{name: box.value() for name, box in self._numbers.items()},
+            **{name: tick.isChecked() for name, tick in self._ticks.items()},
+            **{name: box.currentData() for name, box in self._lists.items()},
+        }
+
+    def take_kept(self, kept: Mapping[str, Any]) -> None:
+        """Choose what was chosen for the last film; values that cannot be are passed over."""
+        for name, number in self._numbers.items():
+            value = kept.get(name)
+            if isinstance(value, int | float) and not isinstance(value, bool) and number.minimum() <= value <= number.maximum():
+                number.setValue(value if isinstance(number, QDoubleSpinBox) else int(value))
+        for name, tick in self._ticks.items():
+            wanted = kept.get(name)
+            tick.setChecked(wanted if isinstance(wanted, bool) else tick.isChecked())
+        for name, box in self._lists.items():
+            place = box.findData(kept.get(name))
+            box.setCurrentIndex(box.currentIndex() if place < 0 else place)
+
+    @property
+    def _numbers(self) -> dict[str, QSpinBox | QDoubleSpinBox]:
+        return {"width": self.sides[0], "height": self.sides[1], "rate": self.rate, "speed": self.speed}
+
+    @property
+    def _ticks(self) -> dict[str, QCheckBox]:
+        return {"captions": self.captions, "anchors": self.anchors, "bars": self.bars, "repeats": self.repeats}
+
+    @property
+    def _lists(self) -> dict[str, QComboBox]:
+        return {"pace": self.pace, "ground": self.ground, "ranges": self.ranges}
 
     def ask_preview(self) -> None:
         """Draw anew, once no more is changed."""

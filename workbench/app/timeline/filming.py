@@ -76,6 +76,7 @@ class Filming(QObject):
         place = Path(window.settings.folder) / f"{stem}.gif"
         is_marked = len(self._time_line.dock.slider.marked) == 2
         self.dialog = FilmDialog(offers, window.theme.is_dark, is_marked, place, window)
+        self.dialog.take_kept(window.settings.film())
         self.dialog.preview_wanted.connect(self._draw)
         self.dialog.save_wanted.connect(self.save)
         self.dialog.cancel_wanted.connect(self._cancelled.set)
@@ -147,6 +148,7 @@ class Filming(QObject):
             dialog.say(error.sentence)
             return
         window.settings.folder = str(Path(path).parent)
+        window.settings.save_film(dialog.kept())
         self._cancelled.clear()
         self._told = 0.0
         dialog.show_progress(0.0)
