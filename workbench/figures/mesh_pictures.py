@@ -128,7 +128,7 @@ def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, 
     image = raster.of_triangles(colours)
     if points.shape[1] == 3:
         image = image * raster.of_triangles(shades(points, skin))[..., None]
-    return _averaged(image, raster)
+    return raster.averaged(image, FINER)
 
 
 def textured_picture(
@@ -144,7 +144,7 @@ def textured_picture(
     image = np.array(TEXTURE)[is_inked(places, pattern).astype(np.int64)]
     if points.shape[1] == 3:
         image = image * raster.of_triangles(shades(points, skin))[..., None]
-    return _averaged(image, raster)
+    return raster.averaged(image, FINER)
 
 
 def is_inked(places: Floats, pattern: str) -> Booleans:
@@ -199,13 +199,3 @@ def blended(colours: Floats, amount: Floats, image: Floats) -> Floats:
     whole = np.maximum(amount + below, 1e-12)
     mixed = (amount[..., None] * colours + below[..., None] * image[..., :3]) / whole[..., None]
     return np.concatenate([mixed, (amount + below)[..., None]], axis=2)
-
-
-def _averaged(image: Floats, raster: Raster) -> Floats:
-    """(h, w, 4) from an image of `FINER` times as many pixels a side, and how much of each pixel is covered."""
-    covered = raster.is_covered[..., None].astype(float)
-    full = np.concatenate([image * covered, covered], axis=2)
-    height, width = full.shape[:2]
-    small = full.reshape(height // FINER, FINER, width // FINER, FINER, 4).mean(axis=(1, 3))
-    small[..., :3] /= np.maximum(small[..., 3:], 1e-12)
-    return small

@@ -33,7 +33,15 @@ class Raster:
 
     def of_vertices(self, triangles: Integers, values: Floats) -> Floats:
         """(h, w, c) values at the pixels, linear in each triangle, from values (n, c) at the vertices; 0 where none is."""
-        result: Floats = np.einsum("hwi,hwic->hwc", self.weights, self.of_triangles(values[triangles]))
+        result = np.zeros((*self.triangle.shape, values.shape[1]))
+        _interpolate(self.triangle, self.weights, triangles, np.ascontiguousarray(values), result)
+        return result
+
+    def averaged(self, image: Floats, finer: int) -> Floats:
+        """(h / finer, w / finer, 4) from an image (h, w, 3): mean colour of what is covered, and how much of a pixel is."""
+        height, width = self.triangle.shape
+        result = np.zeros((height // finer, width // finer, 4))
+        _average(np.ascontiguousarray(image), self.triangle, finer, result)
         return result
 
 
@@ -81,3 +89,36 @@ def _fill(points, triangles, order, layers, seen, weights, nearness):  # type: i
                 if before < 0 or layers[before] < layers[t] or near >= nearness[row, column]:
                     seen[row, column], nearness[row, column] = t, near
                     weights[row, column, 0], weights[row, column, 1], weights[row, column, 2] = a, b, c
+
+
+@numba.njit(nogil=True, cache=True)
+def _interpolate(seen, weights, triangles, values, result):  # type: ignore[no-untyped-def]
+    height, width, columns = result.shape
+    for row in range(height):
+        for column in range(width):
+            t = seen[row, column]
+            if t < 0:
+                continue
+            for corner in range(3):
+                vertex, part = triangles[t, corner], weights[row, column, corner]
+                for c in range(columns):
+                    result[row, column, c] += part * values[vertex, c]
+
+
+@numba.njit(nogil=True, cache=True, error_model="numpy")
+def _average(image, seen, finer, result):  # type: ignore[no-untyped-def]
+    height, width = result.shape[:2]
+    for row in range(height):
+        for column in range(width):
+            covered = 0
+            for i in range(row * finer, (row + 1) * finer):
+                for j in range(column * finer, (column + 1) * finer):
+                    if seen[i, j] < 0:
+                        continue
+                    covered += 1
+                    for c in range(3):
+                        result[row, column, c] += image[i, j, c]
+            if covered:
+                for c in range(3):
+                    result[row, column, c] /= covered
+            result[row, column, 3] = covered / finer**2
