@@ -37,6 +37,8 @@ VIEWS: dict[str, Any] = {
     "ranges": {"mips": {"reversed": True, "low": 2.0, "high": 3.0}},
     "draws": {"scale_bar": True},
     "readings": True,
+    "pattern": {"size": 2.0, "degrees": -30.0, "of_source": True, "picture": "/home/me/me.png"},
+    "glyphs": {"kind": "ellipses", "number": 0.5, "size": 2.0, "places": ["target"]},
 }
 
 
@@ -65,6 +67,13 @@ def nested(depth: int) -> dict[str, Any]:
 
 
 HOSTILE: list[tuple[tuple[str, ...], Any]] = [
+    (("pattern",), [1]),
+    (("pattern", "size"), 0.0),
+    (("pattern", "picture"), "a\nb"),
+    (("glyphs", "kind"), "hedgehogs"),
+    (("glyphs", "number"), 1e9),
+    (("glyphs", "places"), ["source", "target", "source"]),
+    (("glyphs", "places"), ["carried"]),
     (("layout",), []),
     (("layout", "centre"), "source"),
     (("layout", "centre", "split"), "aside"),

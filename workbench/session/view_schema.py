@@ -127,6 +127,18 @@ def _panes(what: str, value: Any) -> dict[str, Any]:
     return _named(what, value, MOST_VIEWS, _pane)
 
 
+def _pattern(what: str, value: Any) -> dict[str, Any]:
+    return schema.checked_object(value, PATTERN, what)
+
+
+def _glyphs(what: str, value: Any) -> dict[str, Any]:
+    return schema.checked_object(value, GLYPHS, what)
+
+
+def _factor(what: str, value: Any) -> float:
+    return schema.number(what, value, 0.01, 100.0)
+
+
 DRAWS: Mapping[str, schema.Check] = {
     "edges": _edges,
     "wireframe": schema.flag,
@@ -151,10 +163,24 @@ PANE_CHECKS: Mapping[str, schema.Check] = {
     "draws": _draws,
     "range": _range,
 }
+PATTERN: Mapping[str, schema.Check] = {
+    "size": _factor,
+    "degrees": lambda what, value: schema.number(what, value, -360.0, 360.0),
+    "of_source": schema.flag,
+    "picture": schema.path,
+}
+GLYPHS: Mapping[str, schema.Check] = {
+    "kind": schema.one_of(("none", "stretches", "ellipses")),
+    "number": _factor,
+    "size": _factor,
+    "places": lambda what, value: [schema.one_of(SIDES[:2])(what, place) for place in schema.rows(what, value, 2)],
+}
 VIEWS: Mapping[str, schema.Check] = {
     "layout": _layout,
     "panes": _panes,
     "ranges": _ranges,
     "draws": _draws,
     "readings": schema.flag,
+    "pattern": _pattern,
+    "glyphs": _glyphs,
 }

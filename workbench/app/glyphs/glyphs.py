@@ -151,8 +151,9 @@ class Glyphs(QObject):
     # ------------------------------------------------------------------------------------------ memory
 
     def kept(self) -> dict[str, Any]:
-        """What is there again at the next start, as plain values."""
-        return {**vars(self.choice), "places": list(self.choice.places)}
+        """What differs from the usual choice and is there again at the next start, as plain values."""
+        usual, found = vars(GlyphChoice()), vars(self.choice) | {"places": list(self.choice.places)}
+        return {name: value for name, value in found.items() if getattr(self.choice, name) != usual[name]}
 
     def take_kept(self, kept: Mapping[str, Any]) -> None:
         """Take up what `kept` gave; values of another kind are passed over."""
@@ -161,5 +162,5 @@ class Glyphs(QObject):
             kind=kind if kind in KINDS else "none",
             number=number_within(kept.get("number"), 1.0 / LARGEST, LARGEST, 1.0),
             size=number_within(kept.get("size"), 1.0 / LARGEST, LARGEST, 1.0),
-            places=tuple(name for name in PLACES if name in places) if isinstance(places, list) and places else PLACES,
+            places=tuple(name for name in PLACES if name in places) if isinstance(places, list) else PLACES,
         )

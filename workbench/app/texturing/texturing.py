@@ -89,8 +89,9 @@ class Texturing(QObject):
     # ------------------------------------------------------------------------------------------ memory
 
     def kept(self) -> dict[str, Any]:
-        """What is there again at the next start, as plain values."""
-        return vars(self.layout).copy()
+        """What differs from the usual layout and is there again at the next start, as plain values."""
+        usual = vars(PatternLayout())
+        return {name: value for name, value in vars(self.layout).items() if value != usual[name]}
 
     def take_kept(self, kept: Mapping[str, Any]) -> None:
         """Take up what `kept` gave; values of another kind, and a picture that is gone, are passed over."""
