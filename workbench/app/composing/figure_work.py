@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,11 +16,12 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.core.run import HistoryRow
-from workbench.figures.composer import compose
-from workbench.figures.figure_maps import FigureMap
 from workbench.figures.recipe import MapChoice, Page, Panel, Recipe
 from workbench.io.atomic import write_bytes
 from workbench.session.session import Session
+
+if TYPE_CHECKING:
+    from workbench.figures.figure_maps import FigureMap
 
 NAME = "map"
 """What recipes of the window call its map."""
@@ -44,6 +46,8 @@ class Subject:
 
     @property
     def map(self) -> FigureMap:
+        from workbench.figures.figure_maps import FigureMap  # late, as all that draws: the window opens without
+
         anchors = np.array(self.session.in_force.anchor_vertices, dtype=np.int64)
         return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows, self.carried)
 
@@ -63,6 +67,8 @@ class Order:
 
 def draw_preview(order: Order, pixels: int) -> bytes:
     """PNG of the figure, so many pixels wide; triangles are not drawn one by one. Raises `WorkbenchError`."""
+    from workbench.figures.composer import compose
+
     _check(order)
     dpi = max(20, round(pixels / (order.page.width / 25.4)))
     recipe = replace(order.recipe, page=replace(order.page, dpi=dpi))
@@ -77,6 +83,7 @@ def save(order: Order, path: Path, bind: Callable[[bytes], bytes] = bytes) -> tu
 
     `bind` makes the bytes that are written out of those of the figure: a picture may carry more.
     """
+    from workbench.figures.composer import compose
     from workbench.figures.recipe_text import checked_page
     from workbench.figures.save import check_format, figure_bytes
 
