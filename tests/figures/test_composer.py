@@ -12,6 +12,7 @@ import pytest
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import Measure
 from workbench.core.solid_look.look import VolumeLook
+from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
 from workbench.figures.mesh_panel import scene_of
@@ -101,6 +102,25 @@ def test_panels_of_one_scale_have_one_colour_for_one_value(maps):
     assert np.abs(rest - nearest).max() < 0.02
     assert np.abs(pulled - nearest).max() > 0.2
     assert len(np.unique(colours(apart)[1], axis=0)) > 10
+
+
+def test_colours_run_the_other_way_and_mark_what_lies_beyond_where_that_is_asked(maps):
+    values = maps["pulled"].values(Measure("dirichlet"))
+    low_end, high_end = (float(end) for end in np.quantile(values, (0.25, 0.75)))
+
+    def colours(**ways):
+        ways |= {"range": (low_end, high_end), "logarithmic": False}
+        found = figure_of(maps, Panel(maps=("pulled",), colour="dirichlet", **ways))
+        return found.figure.axes[0].collections[0].get_facecolor()[:, :3]
+
+    usual, other_way, marked = colours(), colours(reversed=True), colours(clipped=True)
+    below, above = values < low_end, values > high_end
+    assert below.any() and above.any()
+    low, high = usual[below][0], usual[above][0]
+    np.testing.assert_allclose(other_way[below], np.broadcast_to(high, other_way[below].shape))
+    np.testing.assert_allclose(other_way[above], np.broadcast_to(low, other_way[above].shape))
+    assert np.abs(marked[below] - CLIPPED_BELOW).max() < 0.01 and np.abs(marked[above] - CLIPPED_ABOVE).max() < 0.01
+    np.testing.assert_array_equal(marked[~below & ~above], usual[~below & ~above])
 
 
 def test_the_same_recipe_gives_the_same_bytes(tmp_path):

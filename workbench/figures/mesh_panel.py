@@ -152,15 +152,15 @@ def colours_of(
     if paint is None or values is None:
         colours: Floats = np.tile(np.array(plain), (len(scene.skin.triangles), 1))
     else:
-        colours = paint.to_rgba(np.clip(values, *_ends(paint)))[:, :3]
+        colours = paint.to_rgba(np.clip(values, *_beyond(paint)))[:, :3]
     colours[scene.inverted] = INVERTED
     return colours
 
 
-def _ends(paint: ScalarMappable) -> tuple[float, float]:
-    norm = paint.norm
-    assert norm.vmin is not None and norm.vmax is not None
-    return float(norm.vmin), float(norm.vmax)
+def _beyond(paint: ScalarMappable) -> tuple[float, float]:
+    """A value below the colours and one above, which every norm takes: what lies further out is drawn alike."""
+    low, high = paint.get_clim()
+    return (0.5 * low, 2.0 * high) if low > 0 else (low - (high - low), high + (high - low))
 
 
 def _textured(scene: Scene, frame: Frame) -> Floats:

@@ -8,8 +8,6 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from workbench.core.errors import WorkbenchError
 from workbench.figures.look_text import look_of, plain_look
 from workbench.figures.recipe import BACKGROUNDS, GLYPHS, KINDS, QUANTITIES, CarriedLook, MapChoice, Page, Panel, Recipe
@@ -128,7 +126,7 @@ def recipe_of(plain: Mapping[str, Any]) -> Recipe:
 
 def checked_page(page: Page, changes: Any) -> Page:
     """The page with some of its values changed. Raises `WorkbenchError` for what is no page."""
-    page = replace(page, **_checked(changes, PAGE, "page"))
+    page = replace(page, **schema.checked_object(changes, PAGE, "page"))
     if (page.width / 25.4 * page.dpi) ** 2 > LARGEST_PAGE:
         raise WorkbenchError(f"A page {page.width:g} mm wide at {page.dpi} dpi is too large; take a smaller dpi.")
     return page
@@ -137,7 +135,7 @@ def checked_page(page: Page, changes: Any) -> Page:
 def _map_of(plain: Any, what: str) -> MapChoice:
     fixed = {"name": _name, "label": _caption, **dict.fromkeys((*OWN_FILES, "source"), schema.path)}
     checks = fixed | {name: schema.CHOICES[name] for name in SESSION_FIELDS} | {"anchors": schema.anchors, "iterations": _steps}
-    found = _checked(plain, checks, what)
+    found = schema.checked_object(plain, checks, what)
     if not found.get("name") or not found.get("source"):
         raise WorkbenchError(f"{what} needs a name and a source: a mesh file, or sample:ID.")
     anchors = found.pop("anchors", {})
@@ -146,7 +144,7 @@ def _map_of(plain: Any, what: str) -> MapChoice:
 
 
 def _panel_of(plain: Any, what: str, page: Page, names: list[str]) -> Panel:
-    panel = Panel(**_checked(plain, PANEL, what))
+    panel = Panel(**schema.checked_object(plain, PANEL, what))
     unknown = next((name for name in panel.maps if name not in names), None)
     if unknown is not None:
         raise WorkbenchError(f"{what} shows the map {unknown!r}; there are: {', '.join(names) or 'none'}.")
@@ -177,24 +175,7 @@ def _check_scales(panels: tuple[Panel, ...]) -> None:
         raise WorkbenchError(f"No map has the scale {bare!r} that a colour bar belongs to.")
 
 
-def _checked(plain: Any, checks: Mapping[str, schema.Check], what: str) -> dict[str, Any]:
-    """Every entry of an object checked by name. Raises `WorkbenchError` for others."""
-    if not isinstance(plain, dict):
-        raise schema.refuse(what, plain, "an object")
-    only_known(plain, set(checks), what)
-    return {name: checks[name](f"{what}: {name}", value) for name, value in plain.items()}
-
-
 # ---------------------------------------------------------------------------------------------- values
-
-
-def _one_of(choices: tuple[str, ...]) -> schema.Check:
-    def check(what: str, value: Any) -> str:
-        if not isinstance(value, str) or value not in choices:
-            raise schema.refuse(what, value, f"one of {', '.join(choices)}")
-        return value
-
-    return check
 
 
 def _within(lowest: float, highest: float) -> schema.Check:
@@ -228,16 +209,8 @@ def _range(what: str, value: Any) -> tuple[float, float]:
     return ends[0], ends[1]
 
 
-def _view(what: str, value: Any) -> tuple[tuple[float, ...], ...]:
-    lines = [schema.rows(what, line, 3) for line in schema.rows(what, value, 3)]
-    axes = tuple(tuple(schema.number(what, entry, -1.0, 1.0) for entry in line) for line in lines)
-    if [len(line) for line in axes] != [3, 3, 3] or np.abs(np.array(axes) @ np.array(axes).T - np.eye(3)).max() > 1e-4:
-        raise schema.refuse(what, value, "three axes of length 1, at right angles")
-    return axes
-
-
 def _carried(what: str, value: Any) -> CarriedLook:
-    return CarriedLook(**_checked(value, CARRIED, what))
+    return CarriedLook(**schema.checked_object(value, CARRIED, what))
 
 
 CARRIED: dict[str, schema.Check] = {
@@ -251,13 +224,13 @@ PAGE: dict[str, schema.Check] = {
     "width": _within(20.0, 2000.0),
     "dpi": _whole(36, 2400),
     "font_size": _within(3.0, 40.0),
-    "background": _one_of(BACKGROUNDS),
+    "background": schema.one_of(BACKGROUNDS),
     "columns": _whole(1, 20),
     "letters": schema.flag,
     "title": _caption,
 }
 PANEL: dict[str, schema.Check] = {
-    "kind": _one_of(KINDS),
+    "kind": schema.one_of(KINDS),
     "maps": _names,
     "colour": schema.text,
     "parameters": schema.numbers_by_name,
@@ -267,17 +240,17 @@ PANEL: dict[str, schema.Check] = {
     "reversed": schema.flag,
     "clipped": schema.flag,
     "frame": _name,
-    "view": _view,
+    "view": schema.axes,
     "bar": schema.flag,
     "caption": _caption,
     "edges": schema.flag,
     "anchors": schema.flag,
-    "glyphs": _one_of(GLYPHS),
+    "glyphs": schema.one_of(GLYPHS),
     "glyph_count": _whole(1, MOST_GLYPHS),
     "glyph_size": _within(0.05, 20.0),
     "look": look_of,
     "carried": _carried,
-    "quantity": _one_of(tuple(QUANTITIES)),
+    "quantity": schema.one_of(tuple(QUANTITIES)),
     "bins": _whole(2, 1000),
     "span": _whole(1, 20),
 }

@@ -24,7 +24,6 @@ from workbench.engine.carried_source import carry_source
 from workbench.engine.carrying_kernels import compile_carrying
 from workbench.io.write import write_surface
 
-
 NOTHING = "Nothing is carried: File > Carry a surface puts one into a solid."
 
 
@@ -218,6 +217,10 @@ class CarriedView(QObject):
         """How much of the solid is seen while a surface is carried: 0 nothing, 1 nothing but the solid."""
         self.opacity = opacity
         self._set_solid(opacity)
+
+    def opacity_in(self, pane: ViewPane) -> float:
+        """How much of the solid a view shows while a surface is carried."""
+        return 0.0 if isinstance(pane, SplitPane) and pane.shows_carried_alone else self.opacity
 
     def _set_solid(self, opacity: float) -> None:
         for pane in self._panes:

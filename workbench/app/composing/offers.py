@@ -72,8 +72,6 @@ def offers_of(window: MainWindow) -> list[Offer]:
         Offer("Target", _view(window, window.target, "map", edges)),
     ]
     for pane in window.splitting.panes:
-        if pane.shows_carried_alone:
-            continue  # figures have no carried surfaces
         panel = _view(window, pane, "source" if pane.is_source else "map", edges)
         found.append(Offer(f"{pane.title}, split off: {pane.chooser.currentText()}", panel))
     for dock in window.maps:
@@ -97,8 +95,7 @@ def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     caption = "Source" if kind == "source" else "Target"
     panel = Panel(kind, (NAME,), caption=caption, edges=edges, view=_axes(pane.view), look=_look(window))
     panel = replace(panel, **_glyphs(window, "source" if kind == "source" else "target"))
-    if pane in (window.source, window.target):
-        panel = replace(panel, carried=_carried(window))
+    panel = replace(panel, carried=_carried(window, pane))
     if style in PATTERNS:
         return replace(panel, colour=style if style in FIGURE_PATTERNS else CHEQUERED)
     return _coloured(window, window.colouring.range_of(pane), replace(panel, bar=True))
@@ -114,14 +111,14 @@ def _look(window: MainWindow) -> SolidLook | None:
     return SolidLook(volume.look, peel_by.text, dict(peel_by.parameters), marked)
 
 
-def _carried(window: MainWindow) -> CarriedLook | None:
-    """How the large views show the surface that their solid carries."""
+def _carried(window: MainWindow, pane: ViewPane) -> CarriedLook | None:
+    """How a large view shows the surface that its solid carries."""
     if window.carried.surface is None:
         return None
     colours = window.carried.range
     measure = colours.quantity.measure
     ends = (colours.low, colours.high) if colours.low < colours.high else None
-    return CarriedLook(measure.text, dict(measure.parameters), ends, colours.is_logarithmic, window.carried.opacity)
+    return CarriedLook(measure.text, dict(measure.parameters), ends, colours.is_logarithmic, window.carried.opacity_in(pane))
 
 
 def _glyphs(window: MainWindow, place: str) -> dict[str, Any]:

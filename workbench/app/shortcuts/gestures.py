@@ -19,6 +19,7 @@ GESTURES: dict[str, Rows] = {
         ("Middle drag", "pans"),
         ("Left drag, in space", "turns the view"),
         ("Double click on the background", "fits the view"),
+        ("Right click on its title", "splits the view, closes it, links its camera, chooses what it draws"),
     ),
     "While anchors are held": (
         ("X, Y, Z", "along that axis; with Shift in the plane across it; once more: free"),
@@ -42,7 +43,7 @@ GESTURES: dict[str, Rows] = {
     ),
     "Panels": (
         ("Drag across the histogram", "marks those simplices in every view; Esc clears"),
-        ("Right click on a colour bar", "holds, fits or edits its range"),
+        ("Right click on a colour bar", "holds, fits or edits its range, for all views or for one"),
         ("Pointer on a mark of the curves", "what was switched there"),
         ("Click in Steps", "goes back or forth to that step"),
         ("Drag in the plane of the inspector", "marks those simplices"),
