@@ -14,6 +14,7 @@ from workbench.app.background import Background
 from workbench.app.binding.binding import Binding
 from workbench.app.citing.citing import Citing
 from workbench.app.composing.composing import Composing
+from workbench.app.composing.figure_presets import FigurePresets
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.exporting.exporting import Exporting
 from workbench.app.filling.filling import Filling
@@ -56,6 +57,7 @@ class Commands(QObject):
         self.filling = Filling(window)
         self.racing = Racing(window)
         self.composing = Composing(window)
+        self.presets = FigurePresets(window)
         self.judging = Judging(window)
         self.ranked = RankedPlaces(window)
         self.binding = Binding(window)
@@ -121,6 +123,7 @@ class Commands(QObject):
         self.refining.wait()
         self.filling.wait()
         self.composing.wait()
+        self.presets.wait()
         self.exporting.wait()
         self.racing.close()
         self.judging.close()

@@ -45,6 +45,8 @@ def fill_menus(window: MainWindow) -> None:
     carried = file_menu.addMenu("Carry a sur&face")
     carried.aboutToShow.connect(lambda: fill_carried(window, carried))
     file_menu.addAction(actions["figure"])
+    presets = file_menu.addMenu("Figure as in the survey")
+    presets.aboutToShow.connect(lambda: window.commands.presets.fill_menu(presets))
     file_menu.addAction(actions["film"])
     screenshots = file_menu.addMenu("S&creenshot of")
     screenshots.aboutToShow.connect(lambda: fill_screenshots(window, screenshots))

@@ -14,6 +14,7 @@ REASONS = {
 }
 BY_MENU = {
     "Carry a surface": "no solid is open, or it carries nothing",
+    "Figure as in the survey": NO_MESH,
     "Own formulas": "the distortion in force is none of your own",
 }
 EMPTY = frozenset({"Open recent", "Recent sessions", "Recent formulas"})

@@ -120,12 +120,17 @@ class Applying(QObject):
 
     def _edge_width(self, width: float) -> None:
         drawing_style.edge_width = width
-        self._window._apply_theme(self._window.theme)
+        self._draw_anew()
 
     def _colour_map(self, name: str) -> None:
         drawing_style.colour_map = name
         for colour_range in self._window.quantities.ranges():
             colour_range.changed.emit()
+        self._draw_anew()
+
+    def _draw_anew(self) -> None:
+        """Whoever draws takes up colours and widths as with another theme."""
+        self._window.theme_switch.changed.emit(self._window.theme)
 
     # ------------------------------------------------------------------------------------------ work
 
