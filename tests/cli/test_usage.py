@@ -83,6 +83,8 @@ def test_version_and_help_say_what_there_is(cli):
         (["--theme", "dark", "FILE"], "FILE"),
         (["--theme=dark"], None),
         (["sample:bar"], "sample:bar"),
+        (["--reset"], None),
+        (["--reset", "FILE"], "FILE"),
     ],
 )
 def test_no_command_opens_the_window(arguments, source, cli, square_file, monkeypatch):
@@ -93,7 +95,7 @@ def test_no_command_opens_the_window(arguments, source, cli, square_file, monkey
     file = str(square_file)
     assert cli(*[file if item == "FILE" else item for item in arguments]).status == 0
     theme = "dark" if any("theme" in item for item in arguments) else ""
-    assert seen == [(file if source == "FILE" else source, {"theme": theme})]
+    assert seen == [(file if source == "FILE" else source, {"theme": theme, "reset": "--reset" in arguments})]
 
 
 def test_a_window_that_cannot_be_loaded_is_explained(cli, monkeypatch):
