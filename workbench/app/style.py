@@ -27,8 +27,8 @@ def style_sheet(theme: Theme) -> str:
     QLabel#form-error {{ color: {"#ff8a80" if theme.is_dark else "#b3261e"}; }}
     QGroupBox {{ border: 1px solid {theme.border}; border-radius: 5px; margin-top: 9px; padding-top: 6px; }}
     QGroupBox::title {{ subcontrol-origin: margin; left: 8px; padding: 0 4px; color: {theme.text}; font-weight: 600; }}
-    QCheckBox::indicator:unchecked, QListView::indicator:unchecked, QTableView::indicator:unchecked {{ border: 1px solid {theme.faint};
-        border-radius: 2px; background: {theme.base}; width: 12px; height: 12px; }}
+    QCheckBox::indicator:unchecked, QListView::indicator:unchecked, QTableView::indicator:unchecked {{
+        border: 1px solid {theme.faint}; border-radius: 2px; background: {theme.base}; width: 12px; height: 12px; }}
     QToolButton#switch:checked {{ background: {theme.accent}; color: #ffffff; border: 1px solid {theme.accent};
         border-radius: 3px; padding: 3px 5px; }}
     QToolButton#switch:checked:disabled {{ background: {theme.border}; color: {theme.faint}; border-color: {theme.border}; }}

@@ -29,7 +29,7 @@ from workbench.cli import (
     solve,
 )
 from workbench.cli.output import full_sentence
-from workbench.core.errors import SolverFailure, WorkbenchError
+from workbench.core.errors import SolverFailedError, WorkbenchError
 
 DESCRIPTION = "Inversion-free maps of least distortion between simplicial meshes. Without a command: the window."
 EPILOG = "`workbench FILE` opens the window on a mesh; `workbench COMMAND --help` explains a command."
@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return exit.code if isinstance(exit.code, int) else BAD_INPUT
     try:
         return int(options.run(options))
-    except SolverFailure as error:
+    except SolverFailedError as error:
         _refuse(full_sentence(error))
         return RUN_FAILED
     except WorkbenchError as error:

@@ -29,7 +29,7 @@ class MeshError(WorkbenchError):
     """A mesh or a mesh file that cannot be used as it is."""
 
 
-class SolverFailure(WorkbenchError):
+class SolverFailedError(WorkbenchError):
     """A run that failed on an input that is in order, where its map was needed for more."""
 
 

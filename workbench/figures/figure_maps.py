@@ -10,7 +10,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.carried_surface import CarriedSurface
-from workbench.core.errors import SolverFailure, WorkbenchError
+from workbench.core.errors import SolverFailedError, WorkbenchError
 from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
@@ -100,7 +100,7 @@ def make_maps(
             run = [item for item in choices if not item.target and _is_same_run(item, choice)]
             found |= _solved(run, opened[key], interrupt)
         except WorkbenchError as error:
-            kind = SolverFailure if isinstance(error, SolverFailure) else WorkbenchError
+            kind = SolverFailedError if isinstance(error, SolverFailedError) else WorkbenchError
             raise kind(f"Map {choice.name}: {error.sentence}", fixes=error.fixes) from error
     return found
 
@@ -132,7 +132,7 @@ def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Inter
     if interrupt():
         raise WorkbenchError("The figure was interrupted; nothing was written.")
     if result.state.status.is_failure:
-        raise SolverFailure(f"The solver failed: {result.state.status.value}")
+        raise SolverFailedError(f"The solver failed: {result.state.status.value}")
     carried = _carried(longest, opened)
     return {
         choice.name: FigureMap(
