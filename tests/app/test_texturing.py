@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import struct
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -177,3 +178,20 @@ def test_a_surface_begins_with_the_map_of_its_file() -> None:
     seam[0, 0] = len(flat)
     torn = TextureCoordinates(np.vstack([flat, [[9.0, 9.0]]]), seam)
     assert begun(torn).initializer == "", "a seam that the source has not"
+
+
+def test_a_solid_has_its_pattern_through_and_through(solid_window: MainWindow, qtbot: QtBot) -> None:
+    window, view = solid_window, solid_window.source.view
+    for side in range(3):
+        axes = np.roll(np.eye(3), side, axis=0)
+        view.turn(replace(view.camera, axes=axes))
+        tones = {}
+        for style in ("checkerboard", "plain"):
+            window.set_source_style(style)
+            qtbot.wait(40)
+            middle = pixels_of(view)[view.height() // 2, view.width() // 4 : -view.width() // 4]
+            tones[style] = middle.mean(axis=1)
+        # edges of triangles are fainter than the fields of a board, which change along every side
+        assert np.ptp(np.quantile(tones["checkerboard"], (0.2, 0.8))) > 40, f"side {side}"
+        assert np.ptp(np.quantile(tones["plain"], (0.2, 0.8))) < 20, f"side {side}"
+    window.set_source_style("checkerboard")

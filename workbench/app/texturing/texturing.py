@@ -41,7 +41,7 @@ class Texturing(QObject):
         self._source, self._target = source, target
         self.layout = PatternLayout()
         self._picture: Pixels | None = None
-        self._centre, self._unit = np.zeros(2, np.float32), 1.0
+        self._centre, self._unit = np.zeros(3, np.float32), 1.0
 
     @property
     def has_picture(self) -> bool:
@@ -77,14 +77,14 @@ class Texturing(QObject):
         if self.layout.of_source and not is_surface:
             return source.points
         self._fit(target.points)
-        return np.asarray((target.points[:, :2] - self._centre) / np.float32(self._unit))
+        return np.asarray((target.points - self._centre) / np.float32(self._unit))
 
     def _fit(self, points: Points) -> None:
         """A start of its own size may be far from the map before it."""
         low, high = (np.array([end(column) for column in points.T]) for end in (np.min, np.max))
         diameter = float(np.linalg.norm(high - low))
         if diameter > 0 and not 1.0 / OTHER_SIZE < diameter / self._unit < OTHER_SIZE:
-            self._centre, self._unit = (0.5 * (low + high)[:2]).astype(np.float32), diameter
+            self._centre, self._unit = (0.5 * (low + high)).astype(np.float32), diameter
 
     # ------------------------------------------------------------------------------------------ memory
 

@@ -19,6 +19,7 @@ from workbench.app.views.colours import single_colour, table_of
 from workbench.app.views.feature_lines import FeatureLines
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.ghost import Ghost
+from workbench.app.views.solid_texture import SolidTexture
 from workbench.app.views.textures import Texture, repeating
 from workbench.core.arrays import Booleans, Integers
 from workbench.core.solid_look.drawn_faces import DrawnFaces
@@ -41,7 +42,7 @@ class Surface:
         self._polydata.SetPolys(geometry.vtk_cells)
         self._make_scalars()
         self._latest: tuple[NDArray[Any] | None, Booleans] | None = None
-        self._texture_points: NDArray[np.float32] | None = None
+        self._texture_points: NDArray[np.float32] = np.empty((0, 2), np.float32)
         self._texture_data: Any = None
         self._texture: Texture | None = None
         self._mapper = mapper_of(self._polydata)
@@ -49,6 +50,7 @@ class Surface:
         self._mapper.SetColorModeToMapScalars()
         self._mapper.UseLookupTableScalarRangeOn()
         self._actor: Any = actor_of(self._mapper)
+        self._solid_texture = SolidTexture(self._actor, self._polydata)
         self._inverted = vtkPolyData()
         self._inverted.SetPoints(geometry.vtk_points)
         is_solid = geometry.simplices.shape[1] == 4
@@ -72,9 +74,8 @@ class Surface:
     def faces_changed(self) -> None:
         """The geometry draws other triangles: they take the colours of their simplices."""
         self._make_scalars()
-        if self._texture_points is not None:
-            self._make_texture_points()
-            self.lay_texture()
+        if self._texture is not None:
+            self.show_pattern(self._texture)
         if self._latest is not None:
             self.set_values(*self._latest)
 
@@ -147,9 +148,13 @@ class Surface:
         self._is_plain = False
         self._texture = texture
         self._actor.GetProperty().SetEdgeOpacity(0.25)
-        if self._texture_points is None:
+        self._solid_texture.hide()
+        self._actor.SetTexture(None)
+        if self.geometry.simplices.shape[1] == 4 and not texture.is_picture:
+            self._solid_texture.show(texture, len(self.geometry.points), self._theme.is_dark)
+        else:
             self._make_texture_points()
-        self._actor.SetTexture(repeating(texture.tile(self._theme.is_dark), draws_with_card()))
+            self._actor.SetTexture(repeating(texture.tile(self._theme.is_dark), draws_with_card()))
         self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
@@ -162,6 +167,7 @@ class Surface:
 
     def _drop_texture(self) -> None:
         self._texture = None
+        self._solid_texture.hide()
         self._actor.SetTexture(None)
 
     @property
@@ -171,10 +177,13 @@ class Surface:
     def lay_texture(self) -> None:
         """Lay the texture where its points are now."""
         texture, places = self._texture, self._texture_points
-        if texture is None or places is None:
+        if texture is None:
             return
         points = self.geometry.points if texture.points is None else texture.points()
-        if points is not None and len(points) == len(places):
+        if points is None:
+            return
+        self._solid_texture.lay(points)
+        if len(points) == len(places):
             np.copyto(places, texture.coordinates(points))
             self._texture_data.Modified()
 

@@ -74,6 +74,10 @@ class Texture:
         found = points[:, :2] @ back.T.astype(np.float32)
         return np.asarray(found + 0.5 if self.is_picture else found, dtype=np.float32)
 
+    def coordinates_in_space(self, points: Points) -> NDArray[np.float32]:
+        """(n, 3) in units of the display -> (n, 3), where a tile is a cube of side 1; turned about the third axis."""
+        return np.column_stack([self.coordinates(points), self.repeats * points[:, 2]]).astype(np.float32)
+
     def tile(self, dark: bool) -> Pixels:
         """What is repeated."""
         if self.picture is not None and self.is_picture:
