@@ -42,6 +42,14 @@ def test_what_is_typed_fits_exactly_where_its_letters_stand_in_order(typed: str,
         assert [text[place].lower() for place in found.places] == list(typed.lower())
 
 
+def test_a_piece_that_stands_as_it_was_typed_is_what_is_meant() -> None:
+    for typed, text in (("cut", "Cut the solid"), ("solid", "Show all of the solid"), ("an", "Place an anchor")):
+        found = fit(typed, text)
+        assert found is not None
+        begin = text.lower().index(typed)
+        assert found.places == tuple(range(begin, begin + len(typed)))
+
+
 @pytest.mark.parametrize(
     ("typed", "better", "worse"),
     [

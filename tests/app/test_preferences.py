@@ -163,19 +163,18 @@ def test_a_settings_file_of_any_kind_is_read(name: str, tmp_path: Path) -> None:
     preferences.keep()
 
 
-def test_a_new_window_begins_with_what_is_preferred_where_it_is_still_there(
+def test_the_window_starts_on_what_is_worst_of_all_with_what_is_still_there(
     tmp_path: Path, make_window: WindowMaker, qtbot: QtBot
 ) -> None:
-    Settings(tmp_path / "window.ini").save_preferences({"distortion": "gone", "solver": "aqp"})
+    path = tmp_path / "window.ini"
+    wrong = b"\n".join(
+        line for line in HOSTILE["wrong types"].split(b"\n")[1:] if not line.startswith((b"geom", b"state", b"pref"))
+    )
+    path.write_bytes(HOSTILE["geometry"] + wrong)
+    Settings(path).save_preferences({"distortion": "gone", "solver": "aqp", "font_size": "huge"})
     window = make_window()
     qtbot.waitUntil(lambda: window.document.positions is not None)
     assert (window.document.session.distortion, window.document.session.solver) == ("symmetric-dirichlet", "aqp")
-
-
-def test_the_window_starts_on_what_is_worst_of_all(tmp_path: Path, make_window: WindowMaker, qtbot: QtBot) -> None:
-    (tmp_path / "window.ini").write_bytes(HOSTILE["geometry"] + HOSTILE["wrong types"].replace(b"[General]\n", b""))
-    window = make_window()
-    qtbot.waitUntil(lambda: window.document.positions is not None)
     assert window.isVisible() and window.panel_dock.isVisible()
     assert window.width() >= 400
 

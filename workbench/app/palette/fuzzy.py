@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-WORD_BEGIN, IN_A_ROW, FIRST, PER_LETTER = 8.0, 6.0, 4.0, 1.0
+WORD_BEGIN, IN_A_ROW, FIRST, PER_LETTER = 8.0, 9.0, 4.0, 1.0
 """What a letter is worth at the beginning of a word, right after the one before it, at the very beginning, and anywhere."""
 GAP, LARGEST_GAP = 0.15, 3.0
 """What each letter that is passed over costs, and the most that one gap does."""
