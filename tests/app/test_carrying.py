@@ -109,10 +109,11 @@ def test_it_is_seen_through_the_solid_which_is_whole_again_without_it(carrying: 
     assert not carrying.carried.bar.isVisible()
 
 
-def test_a_screenshot_of_a_view_is_opaque(carrying: MainWindow, tmp_path: Path) -> None:
+def test_a_screenshot_of_a_view_is_opaque(carrying: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     """Pictures without the window behind them, too: background and what is seen through the solid."""
     pixels(carrying.source.view)
     carrying.commands.save_screenshot(carrying.source.view, str(tmp_path / "source.png"))
+    qtbot.waitUntil((tmp_path / "source.png").exists)
     image = QImage(str(tmp_path / "source.png")).convertToFormat(QImage.Format.Format_RGBA8888)
     read = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())[
         :, 3 : 4 * image.width() : 4
