@@ -111,11 +111,23 @@ def test_a_pane_shows_the_other_side_when_asked(window: MainWindow, qtbot: QtBot
     assert other.view.geometry_shown is window.source.view.geometry_shown, "another mesh reaches panes, too"
 
 
-def test_there_are_no_more_than_eight_views(window: MainWindow) -> None:
-    for _ in range(MOST_PANES):
-        assert window.splitting.split("target", "right") is not None
+def test_there_are_no_more_than_eight_views_and_none_pushes_the_window_apart(window: MainWindow, qtbot: QtBot) -> None:
+    size = window.size()
+    while window.splitting.split("target", "right") is not None:
+        qtbot.wait(5)
+    assert "no room" in window.status.sentence.text() and 1 <= len(window.splitting.panes) < MOST_PANES
+    qtbot.wait(30)
+    assert window.size() == size, "views share the room that there is"
+    window.splitting.arrange({}, {})
+    window.resize(2400, 1400)
+    qtbot.wait(30)
+    for row in range(MOST_PANES):
+        assert window.splitting.split("target", "right" if row % 2 else "below") is not None
     assert window.splitting.split("source", "below") is None
     assert "close one" in window.status.sentence.text()
+    window.splitting.arrange({}, {})
+    window.resize(size)
+    qtbot.wait(30)
 
 
 def test_the_last_view_stays(window: MainWindow) -> None:

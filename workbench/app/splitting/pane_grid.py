@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QSplitter, QWidget
 
 Side = Literal["right", "below"]
@@ -50,6 +50,11 @@ class PaneGrid:
         half = sizes[row] // 2
         parent.setSizes([*sizes[:row], half, sizes[row] - half, *sizes[row + 1 :]])
         new.show()
+
+    def fits(self, room: QSize) -> bool:
+        """Whether every leaf has what it needs at least, in so much room."""
+        least = _least(self.root)
+        return least.width() <= room.width() and least.height() <= room.height()
 
     def replace(self, leaf: QWidget, new: QWidget) -> None:
         """Put another leaf in the place of one, which has no parent then."""
@@ -117,6 +122,23 @@ def _parent(leaf: QWidget) -> QSplitter:
 def _children(splitter: QSplitter) -> list[QWidget]:
     found = [splitter.widget(row) for row in range(splitter.count())]
     return [widget for widget in found if widget is not None]
+
+
+def _least(widget: QWidget) -> QSize:
+    """What a widget needs at least, as it is now: splitters know it of themselves only when they are laid out next."""
+    if not isinstance(widget, QSplitter):
+        return widget.minimumSizeHint().expandedTo(widget.minimumSize()) if widget.minimumWidth() == 0 else _explicit(widget)
+    sizes = [_least(child) for child in _children(widget) if not child.isHidden()]
+    handles = widget.handleWidth() * max(len(sizes) - 1, 0)
+    widths, heights = [size.width() for size in sizes], [size.height() for size in sizes]
+    if widget.orientation() is Qt.Orientation.Horizontal:
+        return QSize(sum(widths) + handles, max(heights, default=0))
+    return QSize(max(widths, default=0), sum(heights) + handles)
+
+
+def _explicit(widget: QWidget) -> QSize:
+    """A width that is set counts more than what the layout would have."""
+    return QSize(widget.minimumWidth(), max(widget.minimumSizeHint().height(), widget.minimumHeight()))
 
 
 def _leaves(widget: QWidget) -> list[QWidget]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from PySide6.QtCore import Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QWidget
 
 from workbench.app.quantity_book import QuantityBook
@@ -13,6 +14,9 @@ from workbench.app.views.pane import ViewPane
 
 SIDES = {"source": "Source", "target": "Target", "carried": "Carried surface"}
 """What a pane can show: the mesh as it was opened, the map, or what the map of a solid carries, without the solid."""
+
+NARROW, NARROWEST = 210, 132
+"""Pixels below which one of the two lists gives way, and width at least."""
 
 
 class SplitPane(ViewPane):
@@ -40,8 +44,13 @@ class SplitPane(ViewPane):
         self.name.hide()
         self.chooser.setMinimumContentsLength(10)
         self.chooser.setMinimumWidth(60)
-        self.sides.setMinimumWidth(56)
+        self.setMinimumWidth(NARROWEST)
         self.chooser.setVisible(not self.shows_carried_alone)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Where it is narrow, what it shows stands without its side."""
+        self.sides.setVisible(event.size().width() >= NARROW or self.shows_carried_alone)
+        super().resizeEvent(event)
 
     @property
     def is_source(self) -> bool:

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 MOST_PANES = 6
 """Panes that may be split off: with source and target they make eight views, beside the colour maps."""
+DOCKED = 0.6
+"""Part of the window that a colour map may take when it is split: other panels make way."""
+NO_ROOM = "There is no room for one more view here: split another one, close a panel or enlarge the window."
 FULL = f"There are {MOST_PANES + 2} views, as many as there can be; close one first."
 
 
@@ -121,13 +124,19 @@ class Splitting(QObject):
         if len(self.panes) >= MOST_PANES:
             self._window.status.say(FULL)
             return None
+        grid = self._grid_of(leaf := self._leaves[name])
+        room = self._window.size() * DOCKED if grid is not self.grids["centre"] else grid.root.size()
         leaf = self._leaves[name]
         pane = self.make(
             self._free_name(), leaf.pane.side if isinstance(leaf.pane, SplitPane) else "source" if leaf.is_source else "target"
         )
-        self._grid_of(leaf).split(leaf.widget, side, pane)
+        grid.split(leaf.widget, side, pane)
         self._begin(pane, self.shown_in(leaf))
         _look_alike(pane.view, leaf.view)
+        if not grid.fits(room):
+            self.close_view(pane.objectName())
+            self._window.status.say(NO_ROOM)
+            return None
         self.active = pane.objectName()
         self.changed.emit()
         return pane

@@ -45,7 +45,7 @@ class ViewPane(QWidget):
         self.chooser = QuantityChooser(book, next(iter(styles)), styles, self)
         self.chooser.chosen.connect(self.style_chosen)
         self.chooser.setMinimumContentsLength(21)
-        self.chooser.setMinimumWidth(120)  # in a small window it gives way
+        self.chooser.setMinimumWidth(70)  # in a small window it gives way
         header.addWidget(self.name)
         header.addWidget(self.caption, 1)
         header.addWidget(self.chooser)
