@@ -56,8 +56,9 @@ class GlyphLayer:
         """
         has_bodies = glyphs is not None and not as_lines and glyphs.axes.shape[1] == 3
         self._body.SetVisibility(has_bodies)
-        for actor in (self._casing, self._core):
-            actor.SetVisibility(glyphs is not None and not has_bodies)
+        self._core.SetVisibility(glyphs is not None and not has_bodies)
+        # rings have many sides, and each costs where no graphics card draws: they have no casing
+        self._casing.SetVisibility(glyphs is not None and as_lines)
         if glyphs is None:
             return
         if has_bodies:
