@@ -20,6 +20,16 @@ MOST_TOLD = 20_000
 """Characters of what a fault left that are told."""
 
 
+CHATTY = ("fontTools", "matplotlib", "PIL", "numba")
+"""Loggers of libraries whose notes are nobody's concern here."""
+
+
+def hush_libraries() -> None:
+    """Of libraries that tell much, only warnings are heard."""
+    for name in CHATTY:
+        logging.getLogger(name).setLevel(logging.WARNING)
+
+
 def log_folder() -> Path:
     """Where logs are kept: the user's folder for states of programs."""
     return Path(platformdirs.user_state_path("distortion-workbench", appauthor=False)) / "log"
@@ -58,11 +68,14 @@ class FaultWatch:
         self._path = self._folder / f"{FAULT}{os.getpid()}.txt"
         self._file: TextIO | None = None
 
-    def begin(self) -> str:
-        """Watch from now on; returns what processes left that ended by a fault, empty where none did."""
+    def begin(self, *, takes_left: bool = True) -> str:
+        """Watch from now on; returns what processes left that ended by a fault, empty where none did.
+
+        Without `takes_left` that is left for another one to tell.
+        """
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            told = self._take_left()
+            told = self._take_left() if takes_left else ""
             self._file = open(self._path, "w", encoding="utf-8")  # noqa: SIM115  it stays open as long as the process
         except OSError:
             return ""

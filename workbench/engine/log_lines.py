@@ -6,6 +6,7 @@ import logging
 import traceback
 from collections import deque
 
+from workbench.engine.log_file import hush_libraries
 from workbench.engine.messages import LogLine
 
 MOST = 200
@@ -20,6 +21,7 @@ class LogLines(logging.Handler):
     def __init__(self) -> None:
         super().__init__(logging.INFO)
         self._lines: deque[LogLine] = deque(maxlen=MOST)
+        hush_libraries()
         root = logging.getLogger()
         root.setLevel(logging.INFO)
         root.addHandler(self)

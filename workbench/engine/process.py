@@ -13,6 +13,7 @@ from multiprocessing.connection import Connection, wait
 import numpy as np
 
 from workbench.engine.child import begin_child
+from workbench.engine.log_file import FaultWatch
 from workbench.engine.log_lines import LogLines
 from workbench.engine.loop import EngineLoop, MapReport
 from workbench.engine.messages import Progress, Ready, Report
@@ -90,6 +91,8 @@ def engine_main(
     """
     gc.disable()  # until the first map: what is made before stays
     begin_child(threads)
+    watch = FaultWatch()
+    watch.begin(takes_left=False)
     inbox = Inbox(connection)
     publisher = _Publisher(connection, gives_way)
     loop = EngineLoop(publisher, inbox.is_urgent, corrector)
@@ -104,7 +107,7 @@ def engine_main(
         loop.tend()
         wait([connection, *loop.waits_for], NAP if loop.is_active else None)
 
-    inbox.serve(loop, begin, rest)
+    inbox.serve(loop, begin, rest, watch.end)
 
 
 def prepare(ahead: str) -> None:

@@ -37,10 +37,12 @@ class Inbox:
         self.drain()
         return self._box.interrupts
 
-    def serve(self, loop: Loop, begin: Callable[[], None], rest: Callable[[], None]) -> None:
+    def serve(
+        self, loop: Loop, begin: Callable[[], None], rest: Callable[[], None], end: Callable[[], None] = lambda: None
+    ) -> None:
         """Body of a child process, which it ends: with `Quit`, or when the pipe breaks.
 
-        `begin` is called first; `rest` where there is nothing to do, and returns when there may be.
+        `begin` is called first; `rest` where there is nothing to do, and returns when there may be; `end` last.
         """
         try:
             begin()
@@ -54,4 +56,5 @@ class Inbox:
             pass
         finally:
             self._connection.close()
+            end()
             os._exit(0)  # threads of a plugin or of BLAS shall not keep the process

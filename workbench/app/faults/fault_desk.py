@@ -40,7 +40,7 @@ class FaultDesk(QObject):
     def tell_of_last_time(self, text: str) -> None:
         """What an earlier process left that a fault ended: where it was, from Python's own fault handler."""
         self._window.error_bar.show_message(
-            "The program was ended by a fault last time, inside a library. The details say where; the log keeps them.",
+            "The program or its engine was ended by a fault last time, inside a library. The log has the details, too.",
             details=text,
         )
 

@@ -8,6 +8,7 @@ import traceback
 from PySide6.QtCore import QObject, Qt, Signal
 
 from workbench.app.notices.notice import Notice, level_of
+from workbench.engine.log_file import hush_libraries
 
 DETAILS = "details"
 """Name of what a record may carry beside its text: lines for whoever wants to know more."""
@@ -30,6 +31,7 @@ class LogBridge(QObject):
 
     def install(self) -> None:
         """Listen from now on, to notes as well as to warnings; of our own loggers to details, too."""
+        hush_libraries()
         root = logging.getLogger()
         self._level, self._is_installed = root.level, True
         root.setLevel(min(root.level, logging.INFO))

@@ -29,7 +29,7 @@ class Noticing(QObject):
         self._bridge = LogBridge(self)
         self._bridge.told.connect(self.notices.add)
         self._bridge.install()
-        window.error_bar.told.connect(self._bar_told)
+        window.error_bar.told.connect(tell_logger)
         window.status.said.connect(logger.debug)
         window.bridge.log_line.connect(self._engine_told)
         window.theme_switch.changed.connect(self.notices.set_theme)
@@ -47,8 +47,10 @@ class Noticing(QObject):
         """Loggers tell nobody here any longer."""
         self._bridge.remove()
 
-    def _bar_told(self, level: int, sentence: str, details: str) -> None:
-        logger.log(level, "%s", sentence, extra={DETAILS: details})
-
     def _engine_told(self, line: LogLine) -> None:
         logging.getLogger(f"engine.{line.name}").log(line.level, "%s", line.text, extra={DETAILS: line.details})
+
+
+def tell_logger(level: int, sentence: str, details: str) -> None:
+    """What a bar shows, as a record of the window's logger."""
+    logger.log(level, "%s", sentence, extra={DETAILS: details})

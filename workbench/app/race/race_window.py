@@ -10,6 +10,8 @@ from workbench.app.colour_legend import ColourLegend
 from workbench.app.engine_bridge import WorkerMaker
 from workbench.app.error_bar import ErrorBar
 from workbench.app.icons import icon
+from workbench.app.notices.floating_column import FloatingColumn
+from workbench.app.notices.noticing import tell_logger
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.race.compare_bar import CompareBar
 from workbench.app.race.race_bridge import race_worker
@@ -80,6 +82,7 @@ class RaceWindow(QMainWindow):
         self.timeline = Timeline(self.model, self)
         self.compare = CompareBar(self.model, book, quantity, self)
         self.error_bar = ErrorBar(theme, self)
+        self.error_bar.told.connect(tell_logger)
         self.saver = RaceSaver(self.model, self)
         self.sentence = ElidedLabel(self)
         self.statusBar().addWidget(self.sentence, 1)
@@ -133,8 +136,8 @@ class RaceWindow(QMainWindow):
         outer = QVBoxLayout(centre)
         outer.setContentsMargins(0, 0, 0, 0)
         outer.setSpacing(0)
-        outer.addWidget(self.error_bar)
         outer.addWidget(splitter, 1)
+        FloatingColumn(self.grid).add(self.error_bar)
         outer.addWidget(self.timeline)
         self.setCentralWidget(centre)
 
