@@ -64,6 +64,7 @@ PATIENCE = 60_000
 def qtbot(qtbot: QtBot) -> QtBot:
     """That of pytest-qt, with patience: a wait that is over early costs nothing."""
     qtbot.waitUntil = functools.partial(qtbot.waitUntil, timeout=PATIENCE)
+    qtbot.waitSignal = functools.partial(qtbot.waitSignal, timeout=PATIENCE)
     return qtbot
 
 
