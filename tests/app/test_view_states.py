@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
@@ -103,4 +102,11 @@ def test_settings_that_something_else_wrote_are_passed_over(make_window: WindowM
     for value in ([], {"layout": {"centre": {"split": "right", "sizes": [1], "parts": ["target"]}}}, {"panes": 7}, None):
         window.view_states.restore(value)
         assert [leaf.objectName() for leaf in window.grid.leaves()] == ["source", "target"]
-    assert np.isfinite(window.target.view.camera.half_height)
+    far = {"focal": [1e69, -1e69], "half_height": 1e69, "axes": [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]}
+    near = far | {"focal": [0.0, 0.0], "half_height": 1e-250}
+    for camera in (far, near):
+        window.view_states.restore({"panes": {"target": {"camera": camera}, "source": {"camera": camera}}})
+        QTest.qWait(30)
+        assert not window.target.view.grab().isNull(), "a camera from nowhere shows nothing, and does no harm"
+    window.commands.fit()
+    assert window.target.view.shows_everything and window.target.view.camera.half_height < 1.0

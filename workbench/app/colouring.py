@@ -162,6 +162,11 @@ class Colouring(QObject):
         for colour_range in (*self._book.ranges(), *self._own_ranges()):
             colour_range.forget()
 
+    def hold_own(self, locked: bool) -> None:
+        """Keep the ranges that views have for themselves as they are, or let them follow their values."""
+        for colour_range in self._own_ranges():
+            colour_range.hold(locked)
+
     def _own_ranges(self) -> list[ColourRange]:
         panels = [panel.own_range for panel in self._panels if panel.own_range is not None]
         return [*self._own.values(), *panels]

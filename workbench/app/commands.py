@@ -245,7 +245,9 @@ class Commands(QObject):
             pane.view.fit()
 
     def hold_ranges(self) -> None:
-        self._window.quantities.hold_all(self._window.actions_by_name["lock"].isChecked())
+        is_wanted = self._window.actions_by_name["lock"].isChecked()
+        self._window.quantities.hold_all(is_wanted)
+        self._window.colouring.hold_own(is_wanted)
 
     def show_signatures(self) -> None:
         """The window that compares maps; the maps in it stay while it is closed."""

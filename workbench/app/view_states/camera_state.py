@@ -10,6 +10,9 @@ import numpy as np
 from workbench.app.views.camera import ViewCamera
 from workbench.app.views.mesh_view import MeshView
 
+FARTHEST = 1e4
+"""Units of the display, in which a mesh has diameter 1: nothing can be seen from beyond."""
+
 
 def camera_state(view: MeshView) -> dict[str, Any]:
     """From where a view is looked at; only how it is turned where it shows everything."""
@@ -33,5 +36,5 @@ def take_camera_state(view: MeshView, state: Mapping[str, Any]) -> None:
         view.camera = ViewCamera(axes=axes)
         view.fit()
         return
-    place = frame.to_display(np.asarray([focal], dtype=np.float64))[0]
-    view.set_camera(ViewCamera(place, axes, float(np.clip(state["half_height"] * frame.scale, 1e-7, 1e4))))
+    place = np.clip(frame.to_display(np.asarray([focal], dtype=np.float64))[0], -FARTHEST, FARTHEST)
+    view.set_camera(ViewCamera(place, axes, float(np.clip(state["half_height"] * frame.scale, 1e-7, FARTHEST))))
