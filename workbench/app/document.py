@@ -1,4 +1,4 @@
-"""What the window is about: the choices, the mesh, its anchors, the newest map. Changes become commands."""
+"""What is done to what the window is about; changes become commands."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from PySide6.QtCore import QObject, Signal
-
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.choices import PROBLEM_FIELDS, SOLVER_FIELDS, START_FIELDS, EarlierChoices
+from workbench.app.document_state import DocumentState
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_anchors import SAMPLE, first_anchors
 from workbench.app.first_start import with_own_start
@@ -22,12 +21,10 @@ from workbench.app.sessions.restoring import (
     drawn_parameters,
     is_on_same_source,
     name_of_anchor_change,
-    with_anchors,
     without_anchors,
 )
 from workbench.app.watches import Watches
 from workbench.core.arrays import Floats, Integers
-from workbench.core.mesh import Mesh
 from workbench.engine.messages import (
     Dissect,
     Dissected,
@@ -47,39 +44,13 @@ from workbench.session.journal import Journal
 from workbench.session.session import Session
 
 
-class Document(QObject):
-    """Session, mesh and newest snapshot; the only one who posts commands.
-
-    Signals tell what changed; a view reads it from here. Nothing here draws.
-    """
-
-    changing = Signal(str, str)
-    """The user is about to change something: what it is called, and a key that quick changes of one kind share."""
-    session_changed = Signal()
-    opening = Signal(str)
-    opened = Signal()
-    anchors_changed = Signal()
-    selection_changed = Signal()
-    snapshot_taken = Signal()
-    shown_changed = Signal()
-    """Views have another map to show: the newest, or an earlier one while somebody looks back."""
-    history_restarted = Signal()
-    drag_sent = Signal(int, float)
-    refused = Signal(object)
-    dissected = Signal(object)
+class Document(DocumentState):
+    """The only one who posts commands, and takes what the engine reports. Nothing here draws."""
 
     def __init__(self, bridge: EngineBridge, session: Session | None = None) -> None:
-        super().__init__()
+        super().__init__(session)
         self._bridge = bridge
         self._orders = Orders(bridge)
-        self.session = session or Session()
-        self.generation = 0
-        self.loaded: Loaded | None = None
-        self.snapshot: Snapshot | None = None
-        self._past: tuple[Snapshot, AnchorSet] | None = None
-        self.anchors = AnchorSet.none()
-        self.selection: tuple[int, ...] = ()
-        self.wants_to_run = False
         self.is_held = self._is_told = False
         self.opening_source = ""
         self._attempt: Session | None = None
@@ -88,7 +59,6 @@ class Document(QObject):
         self._wanted: Wanted | None = None
         self.journal = Journal()
         self._is_opening = False
-        self._has_finished = False
         self._watches = Watches()
         bridge.loaded.connect(self._take_loaded)
         bridge.snapshot.connect(self._take_snapshot)
@@ -97,57 +67,10 @@ class Document(QObject):
         bridge.dissected.connect(self._take_dissected)
         bridge.leg_begun.connect(self._take_leg)
 
-    # ------------------------------------------------------------------------------------------ state
-
-    @property
-    def mesh(self) -> Mesh | None:
-        """The source; None while there is none, or where the window cannot show it."""
-        return self.loaded.mesh if self.loaded is not None else None
-
-    @property
-    def kind(self) -> str:
-        return self.loaded.kind if self.loaded is not None else ""
-
-    @property
-    def positions(self) -> Floats | None:
-        """The newest map (n, d)."""
-        return self.snapshot.positions if self.snapshot is not None else None
-
     @property
     def anchor_serial(self) -> int:
         """The number of the newest anchors; a snapshot tells which it holds."""
         return self._orders.anchor_serial
-
-    @property
-    def shown(self) -> Snapshot | None:
-        """What views show: the newest map, or an earlier one. Whatever is done, is done to the newest."""
-        return self._past[0] if self._past is not None else self.snapshot
-
-    @property
-    def shown_anchors(self) -> AnchorSet:
-        return self._past[1] if self._past is not None else self.anchors
-
-    def look_back(self, snapshot: Snapshot | None, anchors: AnchorSet | None = None) -> None:
-        """Let views show an earlier map with its anchors; with None the newest, as it comes."""
-        before = self._past
-        self._past = None if snapshot is None else (snapshot, anchors or AnchorSet.none())
-        if self.shown is not None and (before, self._past) != (None, None):
-            self.shown_changed.emit()
-
-    @property
-    def complete_session(self) -> Session:
-        """The session with its anchors."""
-        return with_anchors(self.session, self.anchors)
-
-    @property
-    def is_running(self) -> bool:
-        """Whether the user wants the solver to run; it may have finished meanwhile."""
-        return self.wants_to_run
-
-    @property
-    def is_at_work(self) -> bool:
-        """Whether the solver runs, or is about to, and has not said that it is done."""
-        return self.wants_to_run and not self._has_finished
 
     # ------------------------------------------------------------------------------------------ opening
 
@@ -452,16 +375,6 @@ class Document(QObject):
             self.drag_sent.emit(self.anchor_serial, at)
         self._orders.anchors(self.anchors, 3 if self.kind == "volume" else 2, dragging)
 
-    @property
-    def selected_anchors(self) -> Integers:
-        """(k,) int64: the selected anchors and those that move with them."""
-        return self.anchors.together_with(self.selection)
-
-    @property
-    def selected(self) -> int:
-        """Vertex of the anchor that was selected last, -1 where none is."""
-        return self.selection[-1] if self.selection else -1
-
     def add_anchor(self, vertex: int) -> None:
         """Hold a vertex where it is now."""
         if self.positions is not None and vertex not in self.anchors:
@@ -485,16 +398,3 @@ class Document(QObject):
         """Hold more vertices where they are now; anchors that are there stay as they are."""
         if self.positions is not None:
             self.set_anchors(self.anchors.joined(AnchorSet.at(vertices, self.positions)))
-
-    def select(self, vertex: int) -> None:
-        """Select one anchor, or none (-1)."""
-        self._select((vertex,) if vertex >= 0 else ())
-
-    def select_all(self, vertices: Iterable[int]) -> None:
-        """Select several: those of `vertices` that are anchors."""
-        self._select(tuple(int(v) for v in vertices if v in self.anchors))
-
-    def _select(self, selection: tuple[int, ...]) -> None:
-        if selection != self.selection:
-            self.selection = selection
-            self.selection_changed.emit()
