@@ -6,6 +6,7 @@ import io
 import json
 import math
 import os
+import pickle
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,9 +17,18 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from workbench.core.errors import WorkbenchError
-from workbench.engine.session_file import read_session, source_trouble, write_session
+from workbench.engine import session_file
+from workbench.engine.session_file import (
+    carries_session,
+    picture_with_session,
+    read_session,
+    source_trouble,
+    write_session,
+)
+from workbench.io.png_content import with_content
 from workbench.session.journal import Leg
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
@@ -145,6 +155,12 @@ HOSTILE_VALUES: list[dict[str, Any]] = [
     {"anchors": [[0, [0, 0], "off"]]},
     {"anchors": [[0, [0, 0], -3]]},
     {"anchors": [[0, [0, 0], None, "g"]]},
+    {"linear_equations": "x[0] = 0"},
+    {"linear_equations": ["__import__('os').system('true') = x[0]"]},
+    {"linear_equations": ["x[0] = 1e999"]},
+    {"linear_equations": ["x[0] = 0\nx[1] = 0"]},
+    {"linear_equations": ["x[0] = 0"] * 1_000_000},
+    {"linear_equations": ["+".join(["x[0]"] * 10_000) + " = 0"]},
     {"version": 99},
     {"version": "1"},
     {"format": "something else"},
@@ -270,6 +286,34 @@ def test_zips_with_something_else_in_them_are_refused_and_nothing_is_unpacked(tm
     before = sorted(tmp_path.rglob("*"))
     refused(path)
     assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_pictures_without_a_session_or_with_a_hostile_one_are_refused(tmp_path: Path) -> None:
+    stream = io.BytesIO()
+    Image.new("RGB", (4, 4)).save(stream, "PNG")
+    plain = stream.getvalue()
+    bomb = io.BytesIO()
+    with zipfile.ZipFile(bomb, "w") as archive:
+        HOSTILE_MEMBERS["bomb"](archive)
+    path = tmp_path / "p.png"
+    for content in (None, b"", b"PK", b"{}", bomb.getvalue(), b"\x89PNG\r\n\x1a\n", pickle.dumps({})):
+        path.write_bytes(plain if content is None else with_content(plain, content))
+        refused(path)
+        assert carries_session(path) is (content is not None)
+
+
+def test_a_picture_carries_a_session_without_its_maps_where_they_are_large(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stream = io.BytesIO()
+    Image.new("RGB", (4, 4)).save(stream, "PNG")
+    record = SessionRecord(Session(source=str(tmp_path / "m.obj"), distortion="arap"), map=np.arange(20.0).reshape(10, 2))
+    path = tmp_path / "p.png"
+    for most, has_map in ((10**6, True), (100, False)):
+        monkeypatch.setattr(session_file, "LARGEST_CARRIED", most)
+        path.write_bytes(picture_with_session(stream.getvalue(), path, record))
+        found = read_session(path)
+        assert found.session == record.session and (found.map is not None) is has_map
 
 
 def test_damage_anywhere_is_refused_or_harmless(tmp_path: Path) -> None:
