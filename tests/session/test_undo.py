@@ -150,3 +150,13 @@ def test_packing_loses_nothing(seed: int) -> None:
     before = smooth.byte_count
     smooth.pack()
     assert smooth.byte_count < 0.85 * before
+
+
+def test_choices_that_weigh_count_towards_the_limit() -> None:
+    history: UndoHistory[str] = UndoHistory(100, weigh=lambda choices: sum(map(len, choices)))
+    for name in range(12):
+        history.begin_step(str(name), "x" * 30, None)
+    history.trim()
+    assert history.byte_count <= 100
+    assert history.names == tuple(str(name) for name in range(9, 12))
+    assert history.done == 3

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
@@ -29,12 +29,19 @@ class UndoHistory(Generic[Choices]):
     """Steps in the order in which they were done, with the moment before each, and the present one once it is left.
 
     Going back and forth changes nothing of what is kept; a new step forgets those that were undone. Beyond `limit` bytes
-    the oldest maps are rounded to float32 where `may_round` allows it, then the oldest steps are forgotten.
+    the oldest maps are rounded to float32 where `may_round` allows it, then the oldest steps are forgotten. `weigh` gives
+    the bytes that choices take together, where these are worth counting.
     """
 
-    def __init__(self, limit: int, may_round: Callable[[Floats], bool] = lambda positions: True) -> None:
+    def __init__(
+        self,
+        limit: int,
+        may_round: Callable[[Floats], bool] = lambda positions: True,
+        weigh: Callable[[Iterable[Choices]], int] = lambda choices: 0,
+    ) -> None:
         self._limit = limit
         self._may_round = may_round
+        self._weigh = weigh
         self._names: list[str] = []
         self._before: list[Moment[Choices]] = []
         self._tip: Moment[Choices] | None = None
@@ -72,12 +79,15 @@ class UndoHistory(Generic[Choices]):
 
     @property
     def byte_count(self) -> int:
-        return sum(kept.byte_count for kept in self._maps())
+        maps = sum(kept.byte_count for kept in self._maps())
+        return maps + self._weigh(moment.choices for moment in self._moments())
+
+    def _moments(self) -> tuple[Moment[Choices], ...]:
+        return (*self._before, *([self._tip] if self._tip is not None else []))
 
     def _maps(self) -> list[KeptMap]:
         """Each map once, oldest first."""
-        moments = (*self._before, *([self._tip] if self._tip is not None else []))
-        return list(dict.fromkeys(moment.map for moment in moments if moment.map is not None))
+        return list(dict.fromkeys(moment.map for moment in self._moments() if moment.map is not None))
 
     # ------------------------------------------------------------------------------------------ steps
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -22,6 +23,8 @@ from workbench.session.undo import UndoHistory
 
 MEMORY = 2**28
 """Bytes of maps that are kept for undoing."""
+ANCHOR_BYTES = 250
+"""Of an entry in a dictionary, its tuple and the numbers in it."""
 PAUSE = 1.0
 """Seconds without a change after which the next one of the same kind is another step: drawing a slider makes one."""
 NAMES = {
@@ -47,6 +50,12 @@ class Chosen:
     runs: bool
 
 
+def anchor_bytes(moments: Iterable[Chosen]) -> int:
+    """What the anchors of moments take, each set of them once."""
+    sets = {id(moment.anchors): len(moment.anchors) for moment in moments}
+    return ANCHOR_BYTES * sum(sets.values())
+
+
 class Undoing(QObject):
     """Keeps the moment before each step, and brings it back; `changed` tells that the list is another one."""
 
@@ -57,7 +66,7 @@ class Undoing(QObject):
     def __init__(self, document: Document) -> None:
         super().__init__(document)
         self._document = document
-        self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round)
+        self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round, anchor_bytes)
         self._key, self._is_choice = "", False
         self._came_from = -1
         self._changed_at = 0.0
