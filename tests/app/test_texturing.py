@@ -7,6 +7,7 @@ import struct
 import zlib
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,6 +21,8 @@ from workbench.app.first_start import with_own_start
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.texturing.picture_file import KEPT_SIDE, read_picture
+from workbench.app.texturing.texturing import Texturing
+from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import PATTERNS, TILE, Texture, pattern_image
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh, TextureCoordinates
@@ -42,7 +45,7 @@ def picture(tmp_path: Path) -> Path:
 @pytest.fixture
 def usual(window: MainWindow):
     yield window
-    window.texturing.choose(size=1.0, degrees=0.0, of_source=False)
+    window.texturing.choose(size=1.0, degrees=0.0, of_source=False, of_unit=False)
     window.set_source_style("checkerboard")
     window.set_target_style("plain")
 
@@ -113,6 +116,42 @@ def test_a_pattern_that_is_even_in_the_source_goes_with_the_map(usual: MainWindo
         np.testing.assert_allclose(laid, factor * steps, atol=1e-3)
 
 
+def test_a_picture_may_lie_on_the_unit_square_of_u_and_v(usual: MainWindow, qtbot: QtBot, picture: Path) -> None:
+    window = usual
+    window.texturing.take_picture(str(picture))
+    window.texturing.choose(of_unit=True)
+    window.set_source_style("picture")
+    source = window.source.view.surface
+
+    def follows() -> bool:
+        return np.allclose(source._texture_points, window.document.positions, atol=1e-4)
+
+    qtbot.waitUntil(follows)
+    window.document.pin(np.array([0, 272]))
+    window.document.move_anchor(272, window.document.mesh.vertices[272] + [0.3, 0.4], False)
+    qtbot.waitUntil(lambda: np.abs(window.document.positions[272] - window.document.mesh.vertices[272]).min() > 0.2)
+    qtbot.waitUntil(follows)
+    window.texturing.choose(of_unit=False)
+    assert not follows()
+
+
+def test_a_pattern_is_fitted_to_another_mesh_anew_and_does_not_swim_in_one() -> None:
+    mesh = grid_mesh()
+    views = SimpleNamespace(geometry_shown=None)
+    texturing = Texturing(views, views)  # type: ignore[arg-type]
+
+    def middle() -> np.ndarray:
+        places = texturing.texture("checkerboard").points()
+        return 0.5 * (places.min(axis=0) + places.max(axis=0))
+
+    for place in (0.0, 3.0, -7.0):
+        views.geometry_shown = Geometry(mesh.vertices + place, mesh.simplices)
+        views.geometry_shown.points[:, 0] += 0.3 + 0.1 * place  # somebody had moved it before it had a pattern
+        np.testing.assert_allclose(middle(), 0.0, atol=1e-5)
+        views.geometry_shown.points[:, :2] += [0.1, 0.4]
+        np.testing.assert_allclose(middle()[:2], [0.1, 0.4], atol=1e-5)
+
+
 @pytest.mark.parametrize(
     ("content", "words"),
     [
@@ -151,13 +190,15 @@ def test_large_pictures_are_made_smaller_and_bombs_are_refused(tmp_path: Path) -
 
 def test_layout_and_picture_are_there_again(make_window: WindowMaker, tmp_path: Path, picture: Path) -> None:
     settings = Settings(tmp_path / "window.ini")
-    kept = {"size": 2.0, "degrees": 30.0, "of_source": True, "picture": str(picture)}
+    kept = {"size": 2.0, "degrees": 30.0, "of_source": True, "of_unit": True, "picture": str(picture)}
     settings._store.setValue("views", json.dumps({"pattern": kept, "views": {"source": "picture"}}))
     settings.sync()
     window = make_window()
     assert window.texturing.has_picture and window.colouring.style_of(window.source) == "picture"
     assert window.texturing.kept() == kept
-    window.texturing.take_kept({"size": "huge", "degrees": 1e9, "of_source": 1, "picture": str(tmp_path / "gone.png")})
+    window.texturing.take_kept(
+        {"size": "huge", "degrees": 1e9, "of_source": 1, "of_unit": "yes", "picture": str(tmp_path / "gone.png")}
+    )
     assert window.texturing.kept() == {"picture": str(picture)}, "nothing but what is unusual, and can be"
 
 

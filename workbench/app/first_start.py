@@ -13,6 +13,11 @@ from workbench.engine.messages import Loaded
 from workbench.session.session import Session
 
 
+def has_own_map(session: Session) -> bool:
+    """Whether the start is the map that the mesh's own file holds."""
+    return session.initializer == "file" and bool(session.source) and session.start_file == session.source
+
+
 def with_own_start(loaded: Loaded, session: Session) -> Session:
     """The choices with the file's own map as the start, where it has one that leaves every triangle an area."""
     if loaded.kind != "parameterize" or is_sample(session.source):

@@ -167,6 +167,7 @@ PATTERN: Mapping[str, schema.Check] = {
     "size": _factor,
     "degrees": lambda what, value: schema.number(what, value, -360.0, 360.0),
     "of_source": schema.flag,
+    "of_unit": schema.flag,
     "picture": schema.path,
 }
 GLYPHS: Mapping[str, schema.Check] = {

@@ -19,10 +19,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from workbench.app.texturing.texturing import LARGEST, Texturing
+from workbench.app.texturing.texturing import LARGEST, PatternLayout, Texturing
 
 STEPS = 100
-IN_MAP, IN_SOURCE = "the map (by its UVs)", "the source"
+PLACES = {
+    "the map, fitted to it": {"of_source": False, "of_unit": False},
+    "the map, pictures by u and v from 0 to 1": {"of_source": False, "of_unit": True},
+    "the source": {"of_source": True, "of_unit": False},
+}
 
 
 class PatternDialog(QDialog):
@@ -47,12 +51,11 @@ class PatternDialog(QDialog):
         self.degrees.setToolTip("By how much the pattern is turned, counter-clockwise")
         self.degrees.valueChanged.connect(lambda value: texturing.choose(degrees=value))
         self.place = QComboBox(self)
-        self.place.addItem(IN_MAP, False)
-        self.place.addItem(IN_SOURCE, True)
+        self.place.addItems(list(PLACES))
         self.place.setToolTip(
             "Where the pattern is even; the other view shows what the map makes of it. Surfaces in space have it in the map."
         )
-        self.place.activated.connect(lambda _: texturing.choose(of_source=bool(self.place.currentData())))
+        self.place.activated.connect(lambda _: texturing.choose(**PLACES[self.place.currentText()]))
         self.picture = QLabel("", self)
         choose = QPushButton("Choose…", self)
         choose.setToolTip("A PNG or JPEG; it can also be dropped on a view")
@@ -69,7 +72,7 @@ class PatternDialog(QDialog):
         reset = QPushButton("Usual", self)
         reset.setToolTip("The usual size, not turned, even in the map")
         reset.setAutoDefault(False)
-        reset.clicked.connect(lambda _=False: texturing.choose(size=1.0, degrees=0.0, of_source=False))
+        reset.clicked.connect(lambda _=False: texturing.choose(size=1.0, degrees=0.0, of_source=False, of_unit=False))
         layout = QVBoxLayout(self)
         layout.addLayout(form)
         layout.addWidget(reset, 0, Qt.AlignmentFlag.AlignRight)
@@ -83,9 +86,14 @@ class PatternDialog(QDialog):
         with QSignalBlocker(self.size_slider), QSignalBlocker(self.degrees), QSignalBlocker(self.place):
             self.size_slider.setValue(round(STEPS * share_of(layout.size)))
             self.degrees.setValue(layout.degrees)
-            self.place.setCurrentIndex(self.place.findData(layout.of_source))
+            self.place.setCurrentIndex(place_of(layout))
         self.picture.setText(Path(layout.picture).name if self._texturing.has_picture else "none yet")
         self.picture.setToolTip(layout.picture)
+
+
+def place_of(layout: PatternLayout) -> int:
+    """The row of the choice of where a pattern is even."""
+    return 2 if layout.of_source else int(layout.of_unit)
 
 
 def size_at(share: float) -> float:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QFileDialog, QMenu
 
+from workbench.app.first_start import has_own_map
 from workbench.app.texturing.pattern_dialog import PatternDialog
 from workbench.app.texturing.picture_file import FILTERS, is_picture
 from workbench.app.views.pane import ViewPane
@@ -83,10 +84,13 @@ class TextureDesk(QObject):
         except WorkbenchError as error:
             window.error_bar.show_message(error.sentence)
             return
+        is_by_uvs = has_own_map(window.document.session)
+        window.texturing.choose(of_unit=is_by_uvs)
         pane = pane or window.source
         window.colouring.set_style(pane, "picture")
         name = "target" if pane is window.target else "source"
-        window.status.say(f"{Path(path).name} lies on the {name}; View > Pattern > Size and turn… fits it.")
+        how = " by u and v from 0 to 1" if is_by_uvs and not window.texturing.layout.of_source else ""
+        window.status.say(f"{Path(path).name} lies on the {name}{how}; View > Pattern > Size and turn… fits it.")
 
     def _picture_chosen(self, pane: ViewPane, style: str) -> None:
         if style == "picture" and not self._window.texturing.has_picture:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
+from weakref import ref
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.texturing.picture_file import read_picture
 from workbench.app.views.camera import Points
+from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import Pattern, Pixels, Texture
 from workbench.core.errors import WorkbenchError
@@ -23,11 +25,15 @@ LARGEST = 20.0
 
 @dataclass(frozen=True)
 class PatternLayout:
-    """How patterns lie: `size` and `degrees` as in `Texture`, `of_source` where they are laid out in the source."""
+    """How patterns lie: `size` and `degrees` as in `Texture`, `of_source` where they are laid out in the source.
+
+    With `of_unit` a picture lies on u and v from 0 to 1 of a map, as in programs that draw textures.
+    """
 
     size: float = 1.0
     degrees: float = 0.0
     of_source: bool = False
+    of_unit: bool = False
     picture: str = ""
 
 
@@ -42,6 +48,7 @@ class Texturing(QObject):
         self.layout = PatternLayout()
         self._picture: Pixels | None = None
         self._centre, self._unit = np.zeros(3, np.float32), 1.0
+        self._fitted: ref[Geometry] | None = None
 
     @property
     def has_picture(self) -> bool:
@@ -63,7 +70,9 @@ class Texturing(QObject):
     def texture(self, pattern: Pattern) -> Texture:
         """A pattern as it lies on every view."""
         layout = self.layout
-        return Texture(pattern, layout.size, layout.degrees, self._picture, self._points)
+        lies_on_unit = layout.of_unit and not layout.of_source and pattern == "picture"
+        points = self._unit_points if lies_on_unit else self._points
+        return Texture(pattern, layout.size, layout.degrees, self._picture, lies_on_unit, points)
 
     def _points(self) -> Points | None:
         """Points of the source or the map, about the middle, in units of their diameter.
@@ -76,14 +85,25 @@ class Texturing(QObject):
         is_surface = source.simplices.shape[1] == 3 and not source.is_flat
         if self.layout.of_source and not is_surface:
             return source.points
-        self._fit(target.points)
+        self._fit(target)
         return np.asarray((target.points - self._centre) / np.float32(self._unit))
 
-    def _fit(self, points: Points) -> None:
-        """A start of its own size may be far from the map before it."""
+    def _unit_points(self) -> Points | None:
+        """Points of the map about the middle of the square from 0 to 1, in its own units; a solid has no such square."""
+        target = self._target.geometry_shown
+        if target is None or not target.is_flat:
+            return self._points()
+        frame, points = target.frame, np.zeros_like(target.points)
+        points[:, :2] = target.points[:, :2] / frame.scale + (frame.centre - 0.5)
+        return points
+
+    def _fit(self, target: Geometry) -> None:
+        """Another mesh is displayed about a middle of its own, and a start may be far from the map before it in size."""
+        points, is_other = target.points, self._fitted is None or self._fitted() is not target
+        self._fitted = ref(target)
         low, high = (np.array([end(column) for column in points.T]) for end in (np.min, np.max))
         diameter = float(np.linalg.norm(high - low))
-        if diameter > 0 and not 1.0 / OTHER_SIZE < diameter / self._unit < OTHER_SIZE:
+        if diameter > 0 and (is_other or not 1.0 / OTHER_SIZE < diameter / self._unit < OTHER_SIZE):
             self._centre, self._unit = (0.5 * (low + high)).astype(np.float32), diameter
 
     # ------------------------------------------------------------------------------------------ memory
@@ -100,6 +120,7 @@ class Texturing(QObject):
             size=number_within(kept.get("size"), 1.0 / LARGEST, LARGEST, 1.0),
             degrees=number_within(kept.get("degrees"), -360.0, 360.0, 0.0),
             of_source=kept.get("of_source") is True,
+            of_unit=kept.get("of_unit") is True,
         )
         if isinstance(path, str) and path:
             try:

@@ -44,6 +44,7 @@ class Texture:
     size : float          of its tiles, as a factor of the usual one
     degrees : float       by which it is turned, counter-clockwise
     picture : Pixels      the tile of the pattern `picture`; None: there is none yet, a board takes its place
+    fills : bool          whether a picture is as high as it is wide, whatever its pixels: as u and v from 0 to 1 are
     points : callable     where the points of the geometry are that it is laid out on, in units of the display; None: on the
                           points that are drawn
     """
@@ -52,6 +53,7 @@ class Texture:
     size: float = 1.0
     degrees: float = 0.0
     picture: Pixels | None = None
+    fills: bool = False
     points: Callable[[], Points | None] | None = None
 
     @property
@@ -67,7 +69,7 @@ class Texture:
         """(n, 2|3) in units of the display -> (n, 2), where a tile has the side 1; a picture lies in the middle."""
         angle = np.deg2rad(self.degrees)
         back = self.repeats * np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
-        if self.is_picture:
+        if self.is_picture and not self.fills:
             assert self.picture is not None
             height, width = self.picture.shape[:2]
             back /= np.array([[width], [height]]) / max(width, height)
