@@ -16,6 +16,7 @@ from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.app.panels.method_form import MethodForm
+from workbench.app.reporter import in_window_words
 from workbench.app.settings import Settings
 from workbench.app.theme import LIGHT
 from workbench.app.views.geometry import DisplayFrame
@@ -127,6 +128,25 @@ def test_the_error_bar_offers_fixes(qtbot: QtBot) -> None:
         bar.fix_buttons[2].click()
     assert caught.args == [("reorient", "cut")]
     assert not bar.isVisible()
+    bar.show_message("One of two is enough.", ("seams", "cut"))
+    assert [b.text() for b in bar.fix_buttons] == ["Cut along the texture seams", "Cut open to a disc"]
+
+
+def test_many_buttons_leave_the_sentence_its_width(qtbot: QtBot) -> None:
+    bar = ErrorBar(LIGHT)
+    qtbot.addWidget(bar)
+    bar.resize(900, 60)
+    bar.show()
+    sentence = "The edge between vertices 0 and 1 (from 0) has more than two triangles, and so have 19 others."
+    for fixes in ((), ("cut",), ("seams", "cut"), ("reorient", "cut"), ("reorient", "cut", "largest")):
+        bar.show_message(sentence, fixes, "details")
+        qtbot.waitUntil(lambda: bar.sentence.width() > 0.4 * bar.width())
+
+
+def test_words_of_the_window_name_no_options() -> None:
+    for start in ("A file: The surface is closed, and a parameterization takes a disc", "None"):
+        for advice in ("apply --fix cut", "apply --fix reorient,seams (cut along the texture seams) or --fix reorient,cut"):
+            assert in_window_words(f"{start}; {advice}.") == f"{start}."
 
 
 def test_the_leak_check_can_fail(qtbot: QtBot) -> None:

@@ -195,6 +195,18 @@ def test_seams_compare_coordinates_not_their_numbers(dome: Mesh) -> None:
     np.testing.assert_allclose(x, 0.5)
 
 
+@pytest.mark.parametrize("count", [1, 2, 6])
+def test_words_tell_of_a_map_in_several_charts(count: int) -> None:
+    mesh = ball()
+    corners = np.arange(mesh.simplices.size).reshape(-1, 3)
+    coordinates = mesh.vertices[mesh.simplices.ravel(), :2]
+    of_chart = np.minimum(np.arange(len(mesh.simplices)) // 72, count - 1)  # sides of the cube that the ball was
+    coordinates[:, 0] += 5.0 * np.repeat(of_chart, 3)
+    with pytest.raises(MeshError) as refusal:
+        check_for_kind(replace(mesh, texture=TextureCoordinates(coordinates, corners)), "parameterize")
+    assert (f"{count} charts" in refusal.value.sentence) == (count > 1) and refusal.value.fixes == ("cut",)
+
+
 def test_one_sided_surfaces_are_cut_and_then_oriented() -> None:
     n = 12
     index = np.vstack([np.arange(2 * n).reshape(n, 2), [[1, 0]]])

@@ -30,6 +30,12 @@ FIX_LABELS = {
 }
 
 
+EITHER = ("seams", "cut")
+"""Fixes of which one is enough."""
+MOST_BESIDE = 2
+"""Buttons for fixes that stand beside the sentence; more would leave it a column of single words, and go below."""
+
+
 class ErrorBar(QFrame):
     """One message at a time: sentence, buttons for fixes, details that fold out; the same again is counted."""
 
@@ -55,8 +61,8 @@ class ErrorBar(QFrame):
         self.count.setToolTip("So often has this been told")
         line.addWidget(self.count, 0, Qt.AlignmentFlag.AlignTop)
         self._times = 0
-        self._buttons = QHBoxLayout()
-        line.addLayout(self._buttons)
+        self._beside = QHBoxLayout()
+        line.addLayout(self._beside)
         self.details_button = QToolButton(self)
         self.details_button.setText("Details")
         self.details_button.setCheckable(True)
@@ -69,6 +75,9 @@ class ErrorBar(QFrame):
         self.close_button.clicked.connect(self.dismiss)
         line.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
         outer.addLayout(line)
+        self._below = QHBoxLayout()
+        self._below.addStretch(1)
+        outer.addLayout(self._below)
         self.details = QPlainTextEdit(self)
         self.details.setReadOnly(True)
         self.details.setMaximumHeight(160)
@@ -85,9 +94,7 @@ class ErrorBar(QFrame):
             f"#error-bar QLabel {{ color: {theme.warning_text}; }}"
         )
 
-    def show_message(
-        self, sentence: str, fixes: Sequence[str] = (), details: str = "", level: int = logging.WARNING
-    ) -> None:
+    def show_message(self, sentence: str, fixes: Sequence[str] = (), details: str = "", level: int = logging.WARNING) -> None:
         """Put a message in the place of the one before."""
         is_again = not self.isHidden() and sentence == self.sentence.text()
         self._times = self._times + 1 if is_again else 1
@@ -98,23 +105,26 @@ class ErrorBar(QFrame):
         self.style().polish(self)
         self.told.emit(level, sentence, details)
         for button in self.fix_buttons:
-            self._buttons.removeWidget(button)
+            for row in (self._beside, self._below):
+                row.removeWidget(button)
             button.hide()
             button.deleteLater()
         self.fix_buttons = []
-        for name in fixes:
-            self._add_button(FIX_LABELS.get(name, name.capitalize()), (name,))
-        if len(fixes) > 1:
-            self._add_button("Do all of these", tuple(fixes))
+        choices = {FIX_LABELS.get(name, name.capitalize()): (name,) for name in fixes}
+        if len(fixes) > 1 and tuple(fixes) != EITHER:
+            choices["Do all of these"] = tuple(fixes)
+        row = self._beside if len(choices) <= MOST_BESIDE else self._below
+        for text, names in choices.items():
+            self._add_button(row, text, names)
         self.details.setPlainText(details)
         self.details_button.setVisible(bool(details))
         self.details_button.setChecked(self.details_button.isChecked() and is_again and bool(details))
         self.show()
 
-    def _add_button(self, text: str, names: tuple[str, ...]) -> None:
+    def _add_button(self, row: QHBoxLayout, text: str, names: tuple[str, ...]) -> None:
         button = QPushButton(text, self)
         button.clicked.connect(lambda _=False, chosen=names: self._choose(chosen))
-        self._buttons.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
         self.fix_buttons.append(button)
 
     def _choose(self, names: tuple[str, ...]) -> None:

@@ -255,7 +255,7 @@ def source_name(source: str) -> str:
 
 def in_window_words(sentence: str) -> str:
     """A sentence of the engine without the options of the command line: here a button or a key stands for them."""
-    sentence = re.sub(r"[;,]\s*apply --fix [a-z,]+", "", sentence)
+    sentence = re.sub(r"[;,]\s*apply --fix [a-z,]+( \([a-z ]+\) or --fix [a-z,]+)?", "", sentence)
     sentence = re.sub(r"raise --[a-z-]+ to go on", "run again to go on", sentence)
     return re.sub(rf"^{SAMPLE}([a-z0-9-]+)", lambda found: source_name(found.group(0)), sentence)
 

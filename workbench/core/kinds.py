@@ -49,7 +49,7 @@ def check_for_kind(mesh: Mesh, kind: Kind) -> None:
     fault = _first_fault(mesh, kind)
     if fault:
         fixes = helpful_fixes(mesh, kind)
-        raise MeshError(f"{fault}; {_advice(fixes)}.", fixes=fixes)
+        raise MeshError(f"{fault}{_chart_words(mesh, kind)}; {_advice(fixes)}.", fixes=fixes)
     if len(topology.degenerate):
         without = "area" if mesh.dimension == 2 else "volume"
         raise MeshError(
@@ -102,6 +102,14 @@ def _advice(fixes: tuple[str, ...]) -> str:
         other = ",".join((*fixes[:-2], "cut"))
         return f"apply --fix {along_seams} (cut along the texture seams) or --fix {other}"
     return f"apply --fix {','.join(fixes)}"
+
+
+def _chart_words(mesh: Mesh, kind: Kind) -> str:
+    """A clause on why the texture coordinates of the file are not the way out; empty where they have one chart or none."""
+    if kind != "parameterize" or mesh.texture is None or mesh.topology.component_count > 1:
+        return ""
+    charts = apply_fixes(mesh, ("seams",)).mesh.topology.component_count
+    return f" (its texture coordinates fall into {charts} charts, and one is mapped at a time)" if charts > 1 else ""
 
 
 def _first_fault(mesh: Mesh, kind: Kind) -> str:
