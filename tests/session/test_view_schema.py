@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import json
 from typing import Any
 
 import pytest
@@ -42,14 +41,15 @@ VIEWS: dict[str, Any] = {
 }
 
 
-def without_tuples(value: object) -> object:
-    return json.loads(json.dumps(value))
-
-
 def test_views_come_back_as_they_were() -> None:
     plain, arrays = plain_of(SessionRecord(Session(source="sample:bar"), views=VIEWS))
     again = record_of(parsed(readable(plain)), arrays)
-    assert without_tuples(again.views) == VIEWS
+    assert again.views == VIEWS
+
+
+def test_views_that_were_read_are_written_once_more() -> None:
+    read = views("views", VIEWS)
+    assert views("views", read) == read == VIEWS, "scripts and copies are made of what was read"
 
 
 def test_a_session_without_views_says_nothing_of_them() -> None:

@@ -174,10 +174,10 @@ def one_of(choices: tuple[str, ...]) -> Check:
     return check
 
 
-def axes(what: str, value: Any) -> tuple[tuple[float, ...], ...]:
+def axes(what: str, value: Any) -> list[list[float]]:
     """Three directions of length 1, at right angles: to the right, upwards, towards the eye."""
     lines = [rows(what, line, 3) for line in rows(what, value, 3)]
-    found = tuple(tuple(number(what, entry, -1.0, 1.0) for entry in line) for line in lines)
+    found = [[number(what, entry, -1.0, 1.0) for entry in line] for line in lines]
     if [len(line) for line in found] != [3, 3, 3] or np.abs(np.array(found) @ np.array(found).T - np.eye(3)).max() > 1e-4:
         raise refuse(what, value, "three axes of length 1, at right angles")
     return found
