@@ -20,6 +20,7 @@ from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.main_window import MainWindow
 from workbench.cli import main
 from workbench.core.samples import make_sample
+from workbench.core.seams import texture_at_vertices
 from workbench.engine.session_file import read_session
 from workbench.figures.history_file import read_history
 from workbench.io.opening import open_source
@@ -166,3 +167,20 @@ def test_a_place_that_cannot_be_written_is_told(window: MainWindow, qtbot: QtBot
         window.commands.exporting.export(name, str(folder / f"x{Path(KINDS[name].name).suffix}"))
         qtbot.waitUntil(lambda: f"no folder {folder}" in window.error_bar.sentence.text(), timeout=LONG)  # noqa: B023
     assert list(tmp_path.iterdir()) == []
+
+
+def test_uvs_in_the_unit_square_are_the_same_map(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    document = window.document
+    flat = tmp_path / "flat.obj"
+    window.commands.exporting.export("export-unit", str(flat))
+    assert window.error_bar.isVisible() and not flat.exists(), "a figure has its map as its vertices"
+    window.error_bar.dismiss()
+    window.open("sample:bumpy-disc")
+    qtbot.waitUntil(lambda: document.kind == "parameterize" and document.positions is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: not document.opening_source and len(document.positions) == document.mesh.vertex_count, timeout=LONG)
+    mesh, positions = document.mesh, document.positions
+    opened = open_source(str(exported(window, qtbot, "export-unit", tmp_path / "disc.obj")))
+    assert np.array_equal(opened.mesh.vertices, mesh.vertices) and np.array_equal(opened.mesh.simplices, mesh.simplices)
+    uv = texture_at_vertices(opened.mesh)
+    assert uv is not None and uv.min() == 0.0 and uv.max() == 1.0
+    np.testing.assert_allclose(uv * np.ptp(positions, axis=0).max(), positions - positions.min(axis=0), atol=1e-12)

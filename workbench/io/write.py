@@ -50,7 +50,7 @@ def write_map(
     plane and volume the map as `v` (in the plane of the file where that was a plane in space). npz: `V S X anchors
     targets`. VTU: the map, with fields on the simplices. MEDIT and Gmsh (2.2, binary): the map alone. CSV: a row a
     simplex, a column a field.
-    Numbers have 17 significant digits: they read back to the same values.
+    Numbers have as many digits as it takes to read back to the same values.
 
     Parameters
     ----------
@@ -155,7 +155,7 @@ def _in_space(points: Floats) -> Floats:
 
 
 def _rows(keyword: str, table: Floats) -> str:
-    row = keyword + " %.17g" * table.shape[1] + "\n"
+    row = keyword + " %r" * table.shape[1] + "\n"
     return (row * len(table)) % tuple(table.ravel().tolist())
 
 

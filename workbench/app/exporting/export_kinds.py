@@ -29,8 +29,15 @@ MAP_KINDS = {
     "export-measures": ExportKind("&Measures of each simplex…", "A row a simplex, as CSV", "-measures.csv", "CSV (*.csv)"),
 }
 """Written as File > Save map writes them."""
+UNIT_KIND = ExportKind(
+    "OBJ with UVs from &0 to 1…",
+    "The surface with its map shifted and scaled into the unit square, where programs that paint look for it",
+    "-uvs.obj",
+    "OBJ (*.obj)",
+)
 HISTORY_KIND = ExportKind("&History…", "A row an iteration since the last start, as CSV", "-history.csv", "CSV (*.csv)")
 SCRIPT_KIND = ExportKind("&Python script…", "Repeats the run with workbench.api", "-run.py", "Python (*.py)")
+OTHER_KINDS = {"export-unit": UNIT_KIND, "export-history": HISTORY_KIND, "export-script": SCRIPT_KIND}
 PICTURE_KINDS = {
     "export-target": ExportKind("Picture of the &target…", "The map as it is shown", "-target.png", PICTURES, "Target"),
     "export-source": ExportKind("Picture of the so&urce…", "The source as it is shown", "-source.png", PICTURES, "Source"),
@@ -38,4 +45,4 @@ PICTURE_KINDS = {
     "export-curve": ExportKind("&Energy over iterations…", "As a picture", "-energy.png", PICTURES, "Curve: energy"),
 }
 """Drawn as figures are: one panel on a page."""
-KINDS: dict[str, ExportKind] = {**MAP_KINDS, "export-history": HISTORY_KIND, "export-script": SCRIPT_KIND, **PICTURE_KINDS}
+KINDS: dict[str, ExportKind] = {**MAP_KINDS, **OTHER_KINDS, **PICTURE_KINDS}

@@ -15,21 +15,24 @@ from workbench.app.background import Backgrounds
 from workbench.app.composing.composing import sentence_of
 from workbench.app.composing.figure_work import Order, save
 from workbench.app.composing.offers import offers_of, rows_of, subject_of
-from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, PICTURE_KINDS, ExportKind
+from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, OTHER_KINDS, PICTURE_KINDS, ExportKind
 from workbench.app.exporting.session_pictures import png_of, session_binder
 from workbench.core.errors import WorkbenchError
+from workbench.core.unit_square import into_unit_square
 from workbench.engine.python_script import write_script
 from workbench.engine.run_report import history_text
 from workbench.engine.session_file import source_digest
 from workbench.figures.recipe import Page
 from workbench.io.atomic import write_bytes, write_text
 from workbench.io.opening import open_source
+from workbench.io.write import write_map
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
 PAGE = Page(width=120.0, columns=1)
 """On which a single picture stands."""
+WITHOUT_PICTURE = "A checkerboard stands for the picture; File > Screenshot of shows it as it lies."
 
 
 class Exporting(QObject):
@@ -47,7 +50,7 @@ class Exporting(QObject):
     def fill_menu(self, menu: QMenu) -> None:
         """Meshes and tables, then pictures; what there is nothing for yet is grey."""
         menu.clear()
-        for name in (*MAP_KINDS, "export-history", "export-script", "", *PICTURE_KINDS):
+        for name in (*MAP_KINDS, *OTHER_KINDS, "", *PICTURE_KINDS):
             if not name:
                 menu.addSeparator()
                 continue
@@ -58,7 +61,8 @@ class Exporting(QObject):
     def _is_possible(self, name: str) -> bool:
         if name in ("export-history", "export-curve"):
             return len(self._window.history) > 1
-        return self._window.document.snapshot is not None
+        document = self._window.document
+        return document.snapshot is not None and (name != "export-unit" or document.kind == "parameterize")
 
     def ask(self, name: str) -> None:
         """Ask where to, with a name that tells the mesh and the kind."""
@@ -83,6 +87,8 @@ class Exporting(QObject):
             self._draw(PICTURE_KINDS[name].panel, path)
         elif name == "export-script":
             self._write_script(path)
+        elif name == "export-unit":
+            self._write_in_unit_square(path)
         else:
             self._write_history(path)
 
@@ -100,6 +106,16 @@ class Exporting(QObject):
 
         self._start(work, path)
 
+    def _write_in_unit_square(self, path: str) -> None:
+        record = self._window.sessions.desk.record()
+        session = record.session
+
+        def work() -> None:
+            opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
+            write_map(path, opened.file.mesh, opened.mesh, into_unit_square(record.map), opened.kind)
+
+        self._start(work, path)
+
     def _draw(self, words: str, path: str) -> None:
         subject = subject_of(self._window)
         offer = next((offer for offer in offers_of(self._window) if offer.words.startswith(words)), None)
@@ -107,7 +123,10 @@ class Exporting(QObject):
             return
         order = Order(subject, PAGE, (offer.panel,))
         bind = session_binder(self._window, path)
-        self._start(lambda: save(order, Path(path), bind), path)
+        panes = {"Source": self._window.source, "Target": self._window.target}
+        has_picture = words in panes and self._window.colouring.style_of(panes[words]) == "picture"
+        notes = (WITHOUT_PICTURE,) if has_picture else ()
+        self._start(lambda: (*notes, *save(order, Path(path), bind)), path)
 
     def save_picture(self, image: QImage, path: str) -> None:
         """Write a picture that was taken."""
@@ -122,7 +141,10 @@ class Exporting(QObject):
             own = isinstance(error, WorkbenchError)
             window.error_bar.show_message(sentence_of(error) if own else f"{path} could not be written: {sentence_of(error)}.")
 
-        self._works.start(work, lambda _: window.status.say(f"Saved {path}."), fail)
+        def done(notes: Any) -> None:
+            window.status.say(" ".join((f"Saved {path}.", *(notes if isinstance(notes, tuple) else ()))))
+
+        self._works.start(work, done, fail)
 
 
 def _title(kind: ExportKind) -> str:
