@@ -51,6 +51,16 @@ def test_layouts_of_the_program_show_what_they_are_for(window: MainWindow) -> No
     assert shown(window) == usual
 
 
+def test_a_panel_that_is_asked_for_comes_before_those_at_its_place(window: MainWindow, qtbot: QtBot) -> None:
+    window.layouts.apply(DEFAULT)
+    hidden = [dock for dock in window.docks if not dock.isVisible()]
+    assert len(hidden) > 2
+    for dock in hidden:
+        dock.toggleViewAction().trigger()
+        qtbot.waitUntil(lambda d=dock: not d.visibleRegion().isEmpty())
+    window.layouts.apply(DEFAULT)
+
+
 def test_a_layout_of_ones_own_comes_back_and_can_be_deleted(window: MainWindow) -> None:
     layouts = window.layouts
     layouts.apply("Drag")

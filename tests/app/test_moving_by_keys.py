@@ -218,6 +218,20 @@ def test_a_mirror_twin_is_made_moves_likewise_and_goes_again_with_esc(window: Ma
     assert window.desk.company.customs.mirror == "y", "the plane that was chosen last"
 
 
+def test_a_group_with_a_mirror_twin_moves_as_one(window: MainWindow) -> None:
+    group = (20, 19, 18)
+    take(window, *group)
+    window.handling.group()
+    take(window, 0)
+    before = now(window, *group)
+    window.actions_by_name["mirror-x"].trigger()
+    begin = pixel_of(window.target.view, 0)
+    Hand(window.target.view).drag(begin, begin + QPoint(20, -14))
+    shifts = now(window, *group) - before
+    assert shifts[0][0] < -0.02 and shifts[0][1] > 0.01
+    np.testing.assert_allclose(shifts, shifts[[0, 0, 0]], atol=1e-12)
+
+
 def test_a_source_without_symmetry_is_told(window: MainWindow) -> None:
     window.actions_by_name["mirror-z"].trigger()
     assert "nothing to mirror" in window.status.sentence.text()

@@ -91,7 +91,9 @@ def fill_menus(window: MainWindow) -> None:
     _add_themes(window, view.addMenu("&Appearance"))
     panels = view.addMenu("&Panels")
     for dock in window.docks:
-        panels.addAction(dock.toggleViewAction())
+        shown = dock.toggleViewAction()
+        shown.triggered.connect(lambda is_shown, d=dock: d.raise_() if is_shown else None)  # not behind others
+        panels.addAction(shown)
     layout = view.addMenu("La&yout")
     layout.aboutToShow.connect(lambda: window.layouts.fill_menu(layout))
     help_menu = bar.addMenu("&Help")

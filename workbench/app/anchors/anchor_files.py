@@ -36,7 +36,6 @@ class AnchorFiles(QObject):
         self._works = Backgrounds(self)
         files = actions["import-anchors"], actions["export-anchors"]
         self.dock = AnchorDock(window.document, window.error_bar, files, window)
-        self.dock.toggleViewAction().triggered.connect(lambda is_shown: self.dock.raise_() if is_shown else None)
         files[0].triggered.connect(lambda _=False: self.ask_import())
         files[1].triggered.connect(lambda _=False: self.ask_export())
 

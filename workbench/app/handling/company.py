@@ -168,6 +168,7 @@ class Company(QObject):
             for vertex, twin in zip(held.tolist(), found.tolist(), strict=True):
                 if twin in made and vertex in anchors.weights:  # soft as what it mirrors
                     anchors = anchors.weighted([twin], anchors.weights[vertex])
+        twins = np.unique(anchors.together_with(twins.tolist()))  # a group is not torn apart by its mirror twin
         away = self._distances(held) if customs.has_falloff else None
         away_twins = self._distances(twins) if customs.has_falloff and len(twins) else None
         missing = int(np.count_nonzero(found < 0))
