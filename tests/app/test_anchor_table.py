@@ -230,6 +230,19 @@ def test_cells_are_edited_one_by_one_and_many_at_once(window: MainWindow, dock: 
     qtbot.waitUntil(lambda: dock.model.data(dock.model.index(0, dock.model.place_of("weight"))) == "hard")
 
 
+def test_letters_do_in_the_table_what_they_do_in_the_window(window: MainWindow, dock: AnchorDock) -> None:
+    click(dock, 0, "x")
+    before = window.document.anchors
+    QTest.keyClick(dock.table, Qt.Key.Key_L)
+    assert window.target_tool.area.is_armed and dock.table.findChild(QLineEdit) is None
+    QTest.keyClick(dock.table, Qt.Key.Key_Escape)
+    window.handling._end_areas()
+    QTest.keyClick(dock.table, Qt.Key.Key_G)
+    assert window.target_tool.is_dragging
+    QTest.keyClick(dock.table, Qt.Key.Key_Escape)
+    assert not window.target_tool.is_dragging and window.document.anchors == before
+
+
 def test_a_tick_switches_anchors_off_and_nothing_holds_them_then(window: MainWindow, dock: AnchorDock) -> None:
     document, worker = window.document, window.bridge._worker
     place = cell_at(dock, 0, "on")

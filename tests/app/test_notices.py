@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import logging
 import threading
+import time
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -42,6 +45,26 @@ def test_the_same_again_is_counted_and_another_begins_anew(window: MainWindow) -
     window.error_bar.show_message("Something else is wrong; mend it.")
     assert window.error_bar.count.isHidden()
     window.error_bar.dismiss()
+
+
+def test_what_was_read_goes_with_the_next_step_or_esc_and_what_offers_a_fix_stays(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bar = window.error_bar
+    bar.show_message("That was not a number; type one.")
+    window.document.pin(np.array([0]))
+    assert not bar.isHidden(), "nobody has read it yet"
+    now = time.monotonic()
+    monkeypatch.setattr("workbench.app.error_bar.time.monotonic", lambda: now + 60.0)
+    window.document.pin(np.array([1]))
+    assert bar.isHidden()
+    bar.show_message("That was not a number; type one.")
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert bar.isHidden()
+    bar.show_message("The surface is closed; cut it.", ["cut"])
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert not bar.isHidden()
+    bar.dismiss()
 
 
 def test_the_log_has_what_bar_status_loggers_engine_and_threads_told(window: MainWindow, qtbot: QtBot) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
@@ -34,6 +35,8 @@ EITHER = ("seams", "cut")
 """Fixes of which one is enough."""
 MOST_BESIDE = 2
 """Buttons for fixes that stand beside the sentence; more would leave it a column of single words, and go below."""
+READ = 4.0
+"""Seconds in which a sentence is read."""
 
 
 class ErrorBar(QFrame):
@@ -60,7 +63,7 @@ class ErrorBar(QFrame):
         self.count.setContentsMargins(0, 4, 0, 0)
         self.count.setToolTip("So often has this been told")
         line.addWidget(self.count, 0, Qt.AlignmentFlag.AlignTop)
-        self._times = 0
+        self._times, self._shown_at = 0, 0.0
         self._beside = QHBoxLayout()
         line.addLayout(self._beside)
         self.details_button = QToolButton(self)
@@ -119,6 +122,7 @@ class ErrorBar(QFrame):
         self.details.setPlainText(details)
         self.details_button.setVisible(bool(details))
         self.details_button.setChecked(self.details_button.isChecked() and is_again and bool(details))
+        self._shown_at = time.monotonic()
         self.show()
 
     def _add_button(self, row: QHBoxLayout, text: str, names: tuple[str, ...]) -> None:
@@ -133,6 +137,11 @@ class ErrorBar(QFrame):
 
     def _show_details(self, wanted: bool) -> None:
         self.details.setVisible(wanted)
+
+    def pass_by(self, after: float = READ) -> None:
+        """Whoever goes on has read it: what offers nothing, and has been there for `after` seconds, goes."""
+        if not self.fix_buttons and not self.details.toPlainText() and time.monotonic() - self._shown_at >= after:
+            self.dismiss()
 
     def dismiss(self) -> None:
         self.details.hide()

@@ -116,7 +116,8 @@ class AnchorTable(QTableView):
             return True
         if event.modifiers() & (Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier):
             return False
-        return event.key() in OWN or bool(event.text().strip())
+        # numbers are typed into cells; letters do in the window what they always do, such as G, R, S and L
+        return event.key() in OWN or event.text() in tuple("0123456789+-.,")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         if self.state() == QAbstractItemView.State.EditingState:

@@ -6,6 +6,8 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 MARGIN = 10
+BELOW = 48
+"""Pixels left free at the lower edge, where views say what keys do."""
 WIDEST = 900
 
 
@@ -44,6 +46,6 @@ class FloatingColumn(QWidget):
         width = min(self._host.width() - 2 * MARGIN, WIDEST)
         column = self._column
         height = column.totalHeightForWidth(width) if column.hasHeightForWidth() else column.sizeHint().height()
-        height = min(max(height, 1), self._host.height() - 2 * MARGIN)
-        self.setGeometry((self._host.width() - width) // 2, self._host.height() - height - MARGIN, width, height)
+        height = min(max(height, 1), self._host.height() - MARGIN - BELOW)
+        self.setGeometry((self._host.width() - width) // 2, self._host.height() - height - BELOW, width, height)
         self.raise_()

@@ -30,6 +30,8 @@ class Noticing(QObject):
         self._bridge.told.connect(self.notices.add)
         self._bridge.install()
         window.error_bar.told.connect(tell_logger)
+        window.undoing.changed.connect(lambda: window.error_bar.pass_by())
+        window.actions_by_name["unbrush"].triggered.connect(lambda _=False: window.error_bar.pass_by(0.0))
         window.status.said.connect(logger.debug)
         window.bridge.log_line.connect(self._engine_told)
         window.theme_switch.changed.connect(self.notices.set_theme)
