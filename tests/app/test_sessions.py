@@ -274,6 +274,7 @@ def test_the_title_marks_what_is_not_saved_and_a_session_comes_back(
     qtbot.waitUntil(lambda: not document.opening_source and np.array_equal(document.positions, positions))
     assert document.complete_session == session
     assert not window.isWindowModified()
+    assert "Reading" not in window.status.sentence.text(), "where its mesh needs no reading, nothing else says that it is open"
     window.undoing.undo()
     assert document.session.distortion == "mips" and not len(document.anchors)
     window.undoing.redo()

@@ -41,11 +41,16 @@ def test_a_click_sets_an_anchor_in_either_view_and_both_show_it(window: MainWind
     assert window.document.selected == 272
 
 
-def test_hovering_shows_the_vertex_in_both_views(window: MainWindow) -> None:
+def test_hovering_shows_the_vertex_in_both_views(window: MainWindow, qtbot: QtBot) -> None:
     Hand(window.source.view).move(pixel_of(window.source.view, 136) + QPoint(3, 2))
     QTest.qWait(20)
     for pane in (window.source, window.target):
         assert pane.view.overlay.scene.hovered == 136
+    window.open("grid")
+    qtbot.waitUntil(lambda: window.target.view.geometry_shown is not None and not window.document.opening_source)
+    QTest.qWait(20)
+    for pane in (window.source, window.target):
+        assert pane.view.overlay.scene.hovered_point is None, "the mark is of the mesh before"
 
 
 def test_dragging_moves_the_map_and_the_histogram(window: MainWindow, qtbot: QtBot) -> None:
@@ -288,9 +293,7 @@ def test_the_menu_names_the_samples(window: MainWindow) -> None:
     assert {"Gingerbread man", "Ball"} <= set(names)
 
 
-def test_a_step_that_lasts_is_named_with_the_way_out(
-    window: MainWindow, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
-) -> None:
+def test_a_step_that_lasts_is_named_with_the_way_out(window: MainWindow, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot) -> None:
     monkeypatch.setattr("workbench.app.reporter.LONG_STEP", 0.0)
     window.document.run()
     qtbot.waitUntil(lambda: "Stop ends it" in window.status.sentence.text())

@@ -92,6 +92,7 @@ class Presenter(QObject):
     def _show_mesh(self) -> None:
         loaded = self._document.loaded
         assert loaded is not None
+        self._hovered = -1
         self.clear()
         self._brush.clear()
         self._volume.begin()

@@ -153,6 +153,7 @@ class SessionDesk(QObject):
         self.views_found.emit(record.views)
         if not self._document.opening_source:
             self._opened()
+            self.said.emit(f"{Path(found.path).name} is open; its mesh was already.")
 
     # ------------------------------------------------------------------------------------------ name and mark
 

@@ -90,6 +90,7 @@ class SessionFiles(QObject):
         """Read a session and go to it."""
         self._window.settings.folder = str(Path(path).parent)
         self._window.settings.remember_session(path)
+        self._window.error_bar.dismiss()
         self._window.status.say(f"Reading {Path(path).name}…")
         self.desk.read(path, keeps_path=is_session_file(path))
 
