@@ -127,6 +127,19 @@ def _falloff(painter: QPainter) -> None:
         painter.drawEllipse(QPointF(32, 32), radius, radius)
 
 
+def _float(painter: QPainter) -> None:
+    painter.setPen(QPen(painter.brush().color(), 6))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.drawRect(QRectF(9, 23, 32, 32))
+    painter.drawPolyline(QPolygonF([QPointF(23, 23), QPointF(23, 9), QPointF(55, 9), QPointF(55, 41), QPointF(41, 41)]))
+
+
+def _close(painter: QPainter) -> None:
+    painter.setPen(QPen(painter.brush().color(), 7, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
+    painter.drawLine(QPointF(13, 13), QPointF(51, 51))
+    painter.drawLine(QPointF(51, 13), QPointF(13, 51))
+
+
 DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "run": _run,
     "pause": _pause,
@@ -143,19 +156,26 @@ DRAWINGS: dict[str, Callable[[QPainter], None]] = {
     "split": _split,
     "mirror": _mirror,
     "falloff": _falloff,
+    "float": _float,
+    "close": _close,
 }
 
 
 def icon(name: str, theme: Theme) -> QIcon:
     """Icon `name` for a theme, also in its faint colour for what cannot be used."""
+    return drawn(name, QColor(theme.text), QColor(theme.border))
+
+
+def drawn(name: str, colour: QColor, disabled: QColor) -> QIcon:
+    """Icon `name` in a colour, and in another one for what cannot be used."""
     result = QIcon()
-    for mode, colour in ((QIcon.Mode.Normal, theme.text), (QIcon.Mode.Disabled, theme.border)):
+    for mode, paint in ((QIcon.Mode.Normal, colour), (QIcon.Mode.Disabled, disabled)):
         picture = QPixmap(SIZE, SIZE)
         picture.fill(Qt.GlobalColor.transparent)
         painter = QPainter(picture)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(colour))
+        painter.setBrush(paint)
         DRAWINGS[name](painter)
         painter.end()
         result.addPixmap(picture, mode)

@@ -8,11 +8,6 @@ from workbench.app.theme import Theme
 
 SMALL = 0.92
 """Size of citations and the like, beside that of other words."""
-# Qt draws the signs of these buttons in dark grey whatever the theme: they need a light ground
-DARK_DOCK_BUTTONS = """
-    QWidget#dock-title > QToolButton#dock-button { background: #8a939e; border: 0; border-radius: 2px; padding: 0; }
-    QWidget#dock-title > QToolButton#dock-button:hover { background: #c3cad2; }
-"""
 
 
 def style_sheet(theme: Theme) -> str:
@@ -37,6 +32,5 @@ def style_sheet(theme: Theme) -> str:
     QStatusBar {{ border-top: 1px solid {theme.border}; }}
     QStatusBar::item {{ border: 0; }}
     QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}
-    {DARK_DOCK_BUTTONS if theme.is_dark else ""}
     QToolTip {{ background: {theme.base}; color: {theme.text}; border: 1px solid {theme.border}; padding: 3px; }}
     """

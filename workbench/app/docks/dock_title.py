@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QStyle, QToolButton, QWidget
+from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QToolButton, QWidget
+
+from workbench.app.icons import drawn
 
 
 class DockTitle(QWidget):
@@ -14,19 +16,17 @@ class DockTitle(QWidget):
         super().__init__(dock)
         self.setObjectName("dock-title")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self._dock = dock
         layout = QHBoxLayout(self)
         layout.setContentsMargins(6, 2, 4, 2)
         layout.setSpacing(4)
         for widget in widgets:
             layout.addWidget(widget, 1 if widget is widgets[0] else 0)
         layout.addSpacing(14)
-        style = QStyle.StandardPixmap
         self._buttons = {
-            style.SP_TitleBarNormalButton: (lambda: dock.setFloating(not dock.isFloating()), "Float, or dock again"),
-            style.SP_TitleBarCloseButton: (dock.close, "Close; View > Panels shows it again"),
+            "float": (lambda: dock.setFloating(not dock.isFloating()), "Float, or dock again"),
+            "close": (dock.close, "Close; View > Panels shows it again"),
         }
-        self._made: list[tuple[QToolButton, QStyle.StandardPixmap]] = []
+        self._made: list[tuple[QToolButton, str]] = []
         for picture, (deed, tip) in self._buttons.items():
             button = QToolButton(self)
             button.setAutoRaise(True)
@@ -46,8 +46,9 @@ class DockTitle(QWidget):
         layout.insertWidget(layout.count() - len(self._made), widget)
 
     def _set_icons(self) -> None:
+        palette = self.palette()
         for button, picture in self._made:
-            button.setIcon(self.style().standardIcon(picture, None, self._dock))
+            button.setIcon(drawn(picture, palette.windowText().color(), palette.mid().color()))
 
     def changeEvent(self, event: QEvent) -> None:
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.StyleChange):
