@@ -31,7 +31,7 @@ TEXTS: dict[str, ActionText] = {
     "save-session": ActionText("Save sess&ion", ("Ctrl+Alt+S",), "Save mesh, choices, anchors and map as they are now"),
     "save-session-as": ActionText("Save session &as…", (), "Save the session to another file"),
     "undo": ActionText("Undo", ("Ctrl+Z",), "Take the last step back"),
-    "redo": ActionText("Redo", ("Ctrl+Shift+Z",), "Do the step again that was taken back last"),
+    "redo": ActionText("Redo", ("Ctrl+Shift+Z", "Ctrl+Y"), "Do the step again that was taken back last"),
     "refine": ActionText("&Refine source and map…", ("Ctrl+R",), "Refine the mesh with its map; distortion against level"),
     "figure": ActionText("Fi&gure…", ("Ctrl+E",), "Compose a figure fit to print of what the window shows"),
     "shot-window": ActionText("The &window…", ("Ctrl+Shift+S",), "Save a picture of the whole window"),
