@@ -6,6 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import leaked_widgets
@@ -18,7 +21,8 @@ from workbench.app.meters import DragMeter, RateMeter
 from workbench.app.panels.method_form import MethodForm
 from workbench.app.reporter import in_window_words
 from workbench.app.settings import Settings
-from workbench.app.theme import LIGHT
+from workbench.app.style import style_sheet
+from workbench.app.theme import DARK, LIGHT, Theme, palette_of
 from workbench.app.views.geometry import DisplayFrame
 from workbench.core.method import Parameter
 from workbench.engine.messages import HistoryRow
@@ -150,8 +154,6 @@ def test_words_of_the_window_name_no_options() -> None:
 
 
 def test_the_leak_check_can_fail(qtbot: QtBot) -> None:
-    from PySide6.QtWidgets import QWidget
-
     widget = QWidget()
     widget.show()
     assert widget in leaked_widgets()
@@ -167,3 +169,22 @@ def test_a_thinned_curve_keeps_its_ends_and_peaks(count: int) -> None:
     np.testing.assert_array_equal(values[x.astype(int)], y)
     if count:
         assert (x[-1], y.min(), y.max()) == (count - 1, values.min(), values.max())
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+@pytest.mark.parametrize("is_enabled", [True, False])
+def test_sliders_are_told_from_the_window(qtbot: QtBot, theme: Theme, is_enabled: bool) -> None:
+    panel = QWidget()
+    qtbot.addWidget(panel)
+    panel.setPalette(palette_of(theme))
+    panel.setStyleSheet(style_sheet(theme))
+    slider = QSlider(Qt.Orientation.Horizontal, panel)
+    slider.setEnabled(is_enabled)
+    slider.resize(200, 24)
+    panel.resize(220, 40)
+    panel.show()
+    picture = panel.grab().toImage()
+    tones = np.array([[picture.pixelColor(x, y).lightness() for y in range(24)] for x in range(200)])
+    away = np.abs(tones - QColor(theme.window).lightness())
+    assert away[100:].max() > 15, "the groove"
+    assert away[:20].max() > 40, "the handle"
