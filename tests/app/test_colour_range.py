@@ -45,6 +45,17 @@ def test_a_range_rises_at_once_and_falls_late(qapp: object) -> None:
     assert colour_range.high < 5.0
 
 
+@pytest.mark.parametrize(("value", "high"), [(20.0, 24.0), (17.0, 24.0), (13.0, 14.0), (8.0, 9.0)])
+def test_at_the_end_of_a_run_most_of_the_scale_is_in_use(value: float, high: float, qapp: object) -> None:
+    colour_range = ColourRange(LIVE_QUANTITIES[2])
+    colour_range.take(np.full(100, 20.0, np.float32))
+    values = np.full(100, value, np.float32)
+    colour_range.take(values)
+    assert colour_range.high == 24.0
+    colour_range.take(values, at_rest=True)
+    assert colour_range.high == high
+
+
 def test_values_that_are_not_finite_do_not_count(qapp: object) -> None:
     colour_range = ColourRange(LIVE_QUANTITIES[0])
     values = np.ones(100, np.float32)

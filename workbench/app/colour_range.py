@@ -17,13 +17,16 @@ SHRINKS_BELOW = 0.15
 """Part of the range below which it follows values that have become small."""
 SHRINKS_BELOW_IN_FACTORS = 0.5
 """The same on a logarithmic scale, where ranges are alike in length for values that are far apart."""
+SHRINKS_BELOW_AT_REST = 0.6
+"""The same once a run is over: what is looked at then is the map, and most of the scale has to be in use."""
 
 
 class ColourRange(QObject):
     """Range, scale and colours of one quantity; `changed` tells all views that show it.
 
     The ends are round numbers beyond nearly all values. They move outwards at once and inwards only when the values
-    have shrunk far, so that colours keep their meaning while a map moves; `is_locked` holds them. Beyond the ends the
+    have shrunk far, or to half at the end of a run, so that colours keep their meaning while a map moves; `is_locked`
+    holds them. Beyond the ends the
     colours of the ends go on, or, where `is_clipped`, two others stand.
     """
 
@@ -55,15 +58,15 @@ class ColourRange(QObject):
         self._is_fresh = True
         self._values = None
 
-    def take(self, values: Floats) -> None:
-        """Fit the range to the values (m,) of a snapshot; those that are not finite do not count."""
-        if values is self._values:
+    def take(self, values: Floats, *, at_rest: bool = False) -> None:
+        """Fit the range to the values (m,) of a snapshot, `at_rest` at the end of a run; infinite ones do not count."""
+        if values is self._values and not at_rest:
             return
         self._values = values
-        self._fit()
+        self._fit(at_rest)
         self._count()
 
-    def _fit(self) -> None:
+    def _fit(self, at_rest: bool = False) -> None:
         if self.is_locked or self._values is None:
             return
         values = self._values if self.is_whole else self._values[:: max(1, len(self._values) // SAMPLE)]
@@ -74,7 +77,7 @@ class ColourRange(QObject):
         old_low, old_high = self.scaled(self.low), self.scaled(self.high)
         slack = 1e-9 * (old_high - old_low)
         has_outgrown = low < old_low - slack or high > old_high + slack
-        least_part = SHRINKS_BELOW_IN_FACTORS if self.is_logarithmic else SHRINKS_BELOW
+        least_part = SHRINKS_BELOW_IN_FACTORS if self.is_logarithmic else SHRINKS_BELOW_AT_REST if at_rest else SHRINKS_BELOW
         if self._is_fresh or has_outgrown or high - low < least_part * (old_high - old_low):
             self._is_fresh = False
             self._set(*ends)
