@@ -215,6 +215,8 @@ def test_own_formulas_are_saved_listed_renamed_and_deleted(window: MainWindow, b
     dialog.try_it()
     assert window.document.session.distortion == "my-blend"
     assert box.combo.currentText() == "My blend"
+    window.panel.show_choices()
+    assert box.combo.currentText() == "My blend", "also where another mesh fills the lists anew"
     headings = [box.combo.itemText(i) for i in range(box.combo.count())]
     assert headings.index("Own formulas") < headings.index("My blend")
     own = registry().own_formulas["my-blend"]

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import (
 from workbench.app.document import Document
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
-from workbench.core.registry import Registry
+from workbench.core.registry import Registry, registry
 from workbench.engine.messages import Refused
 from workbench.engine.starts import default_initializer
 
@@ -143,7 +143,7 @@ class ControlPanel(QScrollArea):
         if self._registry is None:
             return
         kind = self._document.kind
-        self.distortion.show_choices(self._registry.distortions, kind)
+        self.distortion.show_choices(registry().distortions, kind)  # formulas of the user's own come and go
         self.solver.show_choices(self._registry.solvers, kind)
         self.start.show_choices(self._registry.initializers, kind)
         self.show_session()
