@@ -357,6 +357,8 @@ def test_the_arrow_keys_go_through_time(racing: Racing, qtbot: QtBot) -> None:
         QTest.keyClick(race, Qt.Key.Key_Right)
     qtbot.waitUntil(lambda: descent.frame.iteration == end)
     assert race.model.is_live
+    QTest.keyClick(race, Qt.Key.Key_W, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: racing.race is None)
 
 
 def test_maps_that_have_shrunk_are_fitted_once_more(racing: Racing, window: MainWindow, qtbot: QtBot) -> None:

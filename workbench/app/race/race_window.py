@@ -46,6 +46,7 @@ UNSEEN = (
     ("forth", "Forth", "Right"),
     ("far-back", "Far back", "Shift+Left"),
     ("far-forth", "Far forth", "Shift+Right"),
+    ("close", "Close", "Ctrl+W"),
 )
 HOLD_KEY = Qt.Key.Key_Y
 
@@ -158,6 +159,7 @@ class RaceWindow(QMainWindow):
             "forth": lambda: self.timeline.move(1),
             "far-back": lambda: self.timeline.move(-10),
             "far-forth": lambda: self.timeline.move(10),
+            "close": self.close,
         }.items():
             self.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
         self.compare.chooser.chosen.connect(self.colours.show_quantity)
