@@ -39,6 +39,7 @@ class Reporter(QObject):
         self._last_iteration = -1
         self._drawn_serial = 0
         self._said = ""
+        self._is_shown_at_work = False
         self._last_news = time.monotonic()
         self._timer = QTimer(self)
         self._timer.setInterval(NUMBERS_INTERVAL)
@@ -165,6 +166,7 @@ class Reporter(QObject):
         if key != self._said:
             self._said = key
             self._say_state()
+        if self._document.is_at_work != self._is_shown_at_work:
             self.show_running()
 
     def _say_state(self) -> None:
@@ -238,6 +240,7 @@ class Reporter(QObject):
         """Run or Pause, and what can be done at all."""
         window, document = self._window, self._document
         has_mesh = document.mesh is not None
+        self._is_shown_at_work = document.is_at_work
         show_running(window.actions_by_name["run"], document.is_at_work, window.theme)
         for name in ("run", "step", "reset", "save", "refine", "pin", "box", "clear", "fit"):
             window.actions_by_name[name].setEnabled(has_mesh)
