@@ -176,9 +176,10 @@ def test_a_thinned_curve_keeps_its_ends_and_peaks(count: int) -> None:
 def test_sliders_are_told_from_the_window(qtbot: QtBot, theme: Theme, is_enabled: bool) -> None:
     panel = QWidget()
     qtbot.addWidget(panel)
-    panel.setPalette(palette_of(theme))
-    panel.setStyleSheet(style_sheet(theme))
     slider = QSlider(Qt.Orientation.Horizontal, panel)
+    panel.setStyleSheet(style_sheet(theme))
+    for widget in (panel, slider):
+        widget.setPalette(palette_of(theme))
     slider.setEnabled(is_enabled)
     slider.resize(200, 24)
     panel.resize(220, 40)
