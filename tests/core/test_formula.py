@@ -167,6 +167,20 @@ def test_the_place_of_a_fault_counts_in_the_typed_text() -> None:
     assert caught.value.position == len("  sigma1^2 + sigma2^2 + ")
 
 
+@pytest.mark.parametrize("text", ["sum(sigma^2) + lam*n/det^", "sigma1^2 +", "sigma1 - ", "  -"])
+def test_a_formula_that_breaks_off_is_at_fault_at_its_end(text: str) -> None:
+    with pytest.raises(FormulaError, match="breaks off") as caught:
+        compile_formula(text, 2)
+    assert caught.value.position == len(text.rstrip())
+
+
+@pytest.mark.parametrize(("text", "place"), [("(sigma1^2 + 1", 0), ("sigma1^2 + 1)", 12), ("sigma1^2 +* 2", 10)])
+def test_other_faults_are_where_they_are_seen(text: str, place: int) -> None:
+    with pytest.raises(FormulaError, match="not a formula") as caught:
+        compile_formula(text, 2)
+    assert caught.value.position == place
+
+
 def test_names_that_are_left_are_parameters() -> None:
     assert names_in_formula("lam*sum(sigma) + mu*det") == ("lam", "mu")
     distortion = Distortion.resolve("lam*sum(sigma^2)", {"lam": 3})

@@ -189,9 +189,11 @@ def parse(text: str) -> ast.expr:
     try:
         return ast.parse(text.strip(" \t").replace("^", "**"), mode="eval").body
     except SyntaxError as error:
-        lead = len(text) - len(text.lstrip(" \t"))
-        position = lead + _column_in_text(text.strip(" \t"), (error.offset or 1) - 1)
-        raise FormulaError(f"This is not a formula: {error.msg}.", position=min(position, len(text))) from None
+        lead, end = len(text) - len(text.lstrip(" \t")), len(text.rstrip(" \t"))
+        position = lead + _column_in_text(text.strip(" \t"), error.offset - 1) if error.offset else end
+        if position >= end:
+            raise FormulaError("The formula breaks off: something has to follow its end.", position=end) from None
+        raise FormulaError(f"This is not a formula: {error.msg}.", position=position) from None
     except (RecursionError, MemoryError, ValueError):
         raise FormulaError(f"The formula is nested more than {MAXIMUM_DEPTH} deep.") from None
 
