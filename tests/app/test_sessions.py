@@ -385,9 +385,10 @@ if __name__ == "__main__":
 
     folder = Path(sys.argv[1])
     autosave.INTERVAL = 300
-    window = MainWindow(ThemeSwitch(application, "light"), Settings(folder / "w.ini"), FakeWorker)
+    window = MainWindow(ThemeSwitch(application, "light"), Settings(folder / "window.ini"), FakeWorker)
     window.autosave = autosave.Autosave(window, folder / "recovery")
     window.start(str(folder / "grid.obj"))
+    window.anchor_files.dock.show()
     window.autosave.start()
     document = window.document
     while document.positions is None:
@@ -429,6 +430,7 @@ def test_a_window_that_is_killed_in_the_middle_of_a_drag_loses_little_and_the_ne
     qtbot.waitUntil(lambda: window.document.positions is not None)
     window.autosave = Autosave(window, tmp_path / "recovery")
     window.autosave.start()
+    assert window.anchor_files.dock.isVisible(), "panels lie as they did"
     box = window.findChild(QMessageBox, "recovery")
     assert box is not None and box.isVisible()
     next(button for button in box.findChildren(QPushButton) if button.text() == "Recover").click()

@@ -51,6 +51,7 @@ class Layouts(QObject):
         self._window = window
         self._first = window.saveState()
         self._before: Before | None = None
+        self._kept: tuple[QByteArray, QByteArray] | None = None
         self.dialog: QInputDialog | None = None
         actions = window.actions_by_name
         actions["present"].triggered.connect(self.present)
@@ -70,6 +71,13 @@ class Layouts(QObject):
         """For the next start; that views have the screen to themselves is over then."""
         self.present(False)
         self._window.settings.save_layout(self._window.saveGeometry(), self._window.saveState())
+
+    def keep_if_changed(self) -> None:
+        """The same while the window goes on, should it not end by itself; not while views have the screen."""
+        now = self._window.saveGeometry(), self._window.saveState()
+        if self._before is None and now != self._kept:
+            self._kept = now
+            self._window.settings.save_layout(*now)
 
     # ------------------------------------------------------------------------------------------ layouts
 

@@ -61,6 +61,8 @@ class Autosave(QObject):
         self._timer = QTimer(self)
         self._timer.setInterval(INTERVAL)
         self._timer.timeout.connect(self.keep)
+        self._timer.timeout.connect(self._keep_looks)
+        self._looks: dict[str, object] = {}
         window.document.changing.connect(self._keep_before_opening)
 
     def start(self) -> None:
@@ -90,6 +92,15 @@ class Autosave(QObject):
         if now != self._kept:
             self._kept = now
             desk.save(str(self.path), is_copy=True)
+
+    def _keep_looks(self) -> None:
+        """Where panels lie and what views show is for the next start, however this window ends."""
+        window = self._window
+        window.layouts.keep_if_changed()
+        looks = window.view_memory.state()
+        if looks != self._looks:
+            self._looks = looks
+            window.settings.save_views(looks)
 
     def _keep_before_opening(self, name: str, key: str) -> None:
         """What was not saved gives way to another mesh: undo leads back to it, and so does the last session."""
@@ -146,9 +157,11 @@ class Autosave(QObject):
         box.setObjectName("recovery")
         box.setIcon(QMessageBox.Icon.Question)
         box.setWindowTitle("Work that was not saved")
-        when = time.strftime("%H:%M:%S on %d %B", time.localtime(left.path.stat().st_mtime))
+        at = time.localtime(left.path.stat().st_mtime)
+        is_today = at[:3] == time.localtime()[:3]
+        when = time.strftime("today at %H:%M:%S" if is_today else "%d %B at %H:%M:%S", at)
         box.setText("The window did not end by itself last time.")
-        box.setInformativeText(f"Its last state is of {when}: {words}.")
+        box.setInformativeText(f"This is left of it: {words},\nas of {when}.")
         recover = box.addButton("Recover", QMessageBox.ButtonRole.AcceptRole)
         discard = box.addButton("Discard", QMessageBox.ButtonRole.DestructiveRole)
         ignore = box.addButton("Not now", QMessageBox.ButtonRole.RejectRole)
