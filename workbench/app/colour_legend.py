@@ -12,6 +12,8 @@ from workbench.app.colour_range import ColourRange
 from workbench.app.theme import LIGHT, Theme
 from workbench.core.arrays import Floats
 
+MEANING = "Every simplex counts once here; the mean of the status bar weighs them by their size in the source."
+
 
 class NumbersRow(QWidget):
     """A line with numbers on the left and a note on the right; where it is narrow, the less important numbers give way."""
@@ -31,7 +33,7 @@ class NumbersRow(QWidget):
         """`parts` in the order of the line; the last is the most important."""
         if (parts, note) != (self._parts, self._note):
             self._parts, self._note = parts, note
-            self.setToolTip("   ".join((*parts, note)).strip())
+            self.setToolTip("\n".join(("   ".join((*parts, note)).strip(), MEANING)) if parts else "")
             self.update()
 
     def text(self) -> str:

@@ -206,6 +206,7 @@ class Reporter(QObject):
         status.show_field("iteration", f"iteration {row.iteration}")
         status.show_field("rate", f"{self.rate_meter.rate():.0f} it/s" if is_moving else "")
         status.show_number("mean", row.mean_distortion, "mean D {:.5g}")
+        status.show_tip("mean", f"Mean distortion: the energy, {row.energy:.12g}, over the total measure of the source")
         status.show_field("inverted", f"{row.inverted} inverted")
         delay = self.drag_meter.recent
         status.show_field("delay", f"drag {delay:.0f} ms" if delay is not None else "")

@@ -68,6 +68,11 @@ class StatusLine(QStatusBar):
         if label.text() != text:
             label.setText(text)
 
+    def show_tip(self, name: str, text: str) -> None:
+        label = self.fields[name]
+        if label.toolTip() != text:
+            label.setToolTip(text)
+
     def show_number(self, name: str, value: float, form: str) -> None:
         """`form` is a format with one place, left empty where the number is not finite."""
         self.show_field(name, form.format(value) if math.isfinite(value) else form.format(math.inf).replace("inf", "∞"))
