@@ -236,3 +236,16 @@ def test_a_solid_has_its_pattern_through_and_through(solid_window: MainWindow, q
         assert np.ptp(np.quantile(tones["checkerboard"], (0.2, 0.8))) > 40, f"side {side}"
         assert np.ptp(np.quantile(tones["plain"], (0.2, 0.8))) < 20, f"side {side}"
     window.set_source_style("checkerboard")
+
+
+def test_the_button_of_the_start_says_whose_map_it_is(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    document, button = window.document, window.panel.file_button
+    source = document.session.source
+    long = str(tmp_path / f"{60 * 'long'}.obj")
+    for start, words in ((source, "UVs of the mesh"), ("/there/other.obj", "other.obj"), (long, "long"), ("", "Choose")):
+        document.choose(initializer="file", start_file=start)
+        window.panel.show_session()
+        assert words in button.text() and button.isVisibleTo(window.panel)
+        assert button.sizeHint().width() < 260 and start in button.toolTip()
+    document.choose(initializer="", start_file="")
+    assert not button.isVisibleTo(window.panel)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import Qt
@@ -23,13 +24,18 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.document import Document
+from workbench.app.first_start import has_own_map
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
 from workbench.core.registry import Registry, registry
 from workbench.engine.messages import Refused
 from workbench.engine.starts import default_initializer
+from workbench.session.session import Session
 
 KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane", "volume": "Solid to space"}
+
+NAME_CHARACTERS = 24
+"""Of the name of a file on a button: more would widen the panel."""
 
 
 class ControlPanel(QScrollArea):
@@ -167,13 +173,22 @@ class ControlPanel(QScrollArea):
         wished = solver.initializer if solver is not None else ""
         start = session.initializer or default_initializer(found or "plane", wished)
         self.start.show_choice(start, session.initializer_parameters)
-        self.file_button.setVisible(start == "file")
+        self._name_start_file(session, start == "file")
 
     def _show_refusal(self, report: Refused) -> None:
         if report.command == "SetProblem":
             self.distortion.show_refusal(report.sentence)
 
     # ------------------------------------------------------------------------------------------ start
+
+    def _name_start_file(self, session: Session, is_wanted: bool) -> None:
+        """The button for the file of the start says which one it is."""
+        self.file_button.setVisible(is_wanted)
+        file = session.start_file
+        words = "The UVs of the mesh" if has_own_map(session) else Path(file).name or "Choose the file"
+        room = self.file_button.fontMetrics().averageCharWidth() * NAME_CHARACTERS
+        self.file_button.setText(self.file_button.fontMetrics().elidedText(words, Qt.TextElideMode.ElideMiddle, room) + "…")
+        self.file_button.setToolTip(f"The map to start from{f': {file}' if file else ''}; a click chooses another file")
 
     def _choose_start(self, id: str, values: dict[str, Any]) -> None:
         if id == "file" and not self._document.session.start_file:
