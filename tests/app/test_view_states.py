@@ -13,6 +13,7 @@ from tests.app.conftest import WindowMaker
 from workbench.app.main_window import MainWindow
 from workbench.core.errors import WorkbenchError
 from workbench.engine.session_file import read_session
+from workbench.session.view_schema import views
 
 
 def plain(value: object) -> object:
@@ -83,6 +84,30 @@ def test_a_session_brings_its_views_back(make_window: WindowMaker, qtbot: QtBot,
     assert [pane.chooser.current for pane in second.splitting.panes] == ["det", "dirichlet"]
     assert second.target.view.surface.lines.boundary.is_shown or second.view_states.state(of_mesh=False)["draws"]
     assert second.target.view.shows_everything, "where a camera stood belongs to a mesh"
+
+
+def test_a_session_of_a_solid_brings_back_how_it_is_looked_into(solid_window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    window, volume = solid_window, solid_window.volume
+    assert "solid" not in window.view_states.state(of_mesh=True), "seen whole"
+    volume.choose(is_cut=True, normal=(0.6, 0.0, -0.8), place=0.3, is_flipped=True, is_exact=True, spread=0.25)
+    volume.peel(0.4)
+    qtbot.waitUntil(lambda: volume.look.threshold is not None)
+    look, before = volume.look, plain(window.view_states.state(of_mesh=True))
+    path = tmp_path / "solid.json"
+    window.sessions.desk.save(str(path))
+    qtbot.waitUntil(lambda: not window.sessions.desk.is_busy)
+    volume.show_all()
+    volume.choose(normal=(0.0, 0.0, 1.0), is_exact=False)
+    window.view_states.want(read_session(path).views)
+    window.document.restore(read_session(path).session, window.document.positions)
+    qtbot.waitUntil(lambda: volume.look.is_cut and volume.look.threshold is not None)
+    assert volume.look.normal == pytest.approx(look.normal) and volume.peeled == 0.4
+    assert volume.look.threshold == pytest.approx(look.threshold)
+    assert_alike(before["solid"], plain(window.view_states.state(of_mesh=True))["solid"])
+    for nonsense in ({"normal": [0, 0, 0]}, {"place": 2}, {"cut": 1}, {"spread": -1}, {"lid": True}):
+        with pytest.raises(WorkbenchError, match="solid"):
+            views("views", {"solid": nonsense})
+    volume.show_all()
 
 
 @pytest.mark.parametrize("value", [[], "x", {"layout": {"centre": 5}}, {"panes": {"pane-1": {"side": "up"}}}])

@@ -135,6 +135,21 @@ def _glyphs(what: str, value: Any) -> dict[str, Any]:
     return schema.checked_object(value, GLYPHS, what)
 
 
+def _solid(what: str, value: Any) -> dict[str, Any]:
+    return schema.checked_object(value, SOLID, what)
+
+
+def _normal(what: str, value: Any) -> list[float]:
+    found = [schema.number(what, part, -1.0, 1.0) for part in schema.rows(what, value, 3)]
+    if len(found) != 3 or not any(found):
+        raise schema.refuse(what, value, "three numbers, not all of them 0")
+    return found
+
+
+def _part(what: str, value: Any) -> float:
+    return schema.number(what, value, 0.0, 1.0)
+
+
 def _factor(what: str, value: Any) -> float:
     return schema.number(what, value, 0.01, 100.0)
 
@@ -176,6 +191,19 @@ GLYPHS: Mapping[str, schema.Check] = {
     "size": _factor,
     "places": lambda what, value: [schema.one_of(SIDES[:2])(what, place) for place in schema.rows(what, value, 2)],
 }
+SOLID: Mapping[str, schema.Check] = {
+    "cut": schema.flag,
+    "normal": _normal,
+    "place": _part,
+    "flipped": schema.flag,
+    "section": schema.flag,
+    "plane": schema.one_of(SIDES[:2]),
+    "veil": _part,
+    "wires": schema.flag,
+    "peel_by": schema.text,
+    "peeled": _part,
+    "spread": lambda what, value: schema.number(what, value, 0.0, 10.0),
+}
 VIEWS: Mapping[str, schema.Check] = {
     "layout": _layout,
     "panes": _panes,
@@ -184,4 +212,5 @@ VIEWS: Mapping[str, schema.Check] = {
     "readings": schema.flag,
     "pattern": _pattern,
     "glyphs": _glyphs,
+    "solid": _solid,
 }

@@ -58,6 +58,7 @@ class ViewStates(QObject):
             ranges = {r.quantity.id: range_state(r, with_ends=True) for r in window.quantities.ranges()}
             found["ranges"] = {id: state for id, state in ranges.items() if state}
             found |= {"pattern": window.texturing.kept(), "glyphs": window.glyphs.kept()}
+            found["solid"] = window.volume.seen()
         return {name: part for name, part in found.items() if part}
 
     def _state_of(self, leaf: Leaf, *, of_mesh: bool) -> Plain:
@@ -140,6 +141,7 @@ class ViewStates(QObject):
             ranges = {r.quantity.id: {} for r in window.quantities.ranges()} | ranges
             window.texturing.take_kept(state.get("pattern", {}))
             window.glyphs.take_kept(state.get("glyphs", {}))
+            window.volume.see(state.get("solid", {}))
         for id, of_range in ranges.items():
             if id in window.quantities:
                 take_range_state(window.quantities.range_of(id), of_range)

@@ -15,7 +15,7 @@ from workbench.app.quantities import IN_FORCE
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces
-from workbench.core.solid_look.look import VolumeLook
+from workbench.core.solid_look.look import AXES, VolumeLook
 from workbench.core.solid_look.solid import Solid
 
 OWNER = "peel"
@@ -166,3 +166,34 @@ class VolumeView(QObject):
     def _brushed(self) -> None:
         if self.look.only_marked and self.is_on:
             self.changed.emit()
+
+    def seen(self) -> dict[str, Any]:
+        """How this solid is looked into now, as plain values for its session; empty where it is seen whole."""
+        look = self.look
+        if not self.is_on or look.is_whole:
+            return {}
+        return self.kept() | {
+            "cut": look.is_cut,
+            "normal": [float(part) for part in look.normal],
+            "place": float(look.place),
+            "flipped": look.is_flipped,
+            "peeled": float(self.peeled),
+            "spread": float(look.spread),
+        }
+
+    def see(self, seen: Mapping[str, Any]) -> None:
+        """Look into the solid as checked values of `seen` say; what they do not name is as in a whole one."""
+        if not self.is_on:
+            return
+        self.take_kept(self.kept() | dict(seen))
+        normal = np.asarray(seen.get("normal", AXES["x"]), dtype=np.float64)
+        length = float(np.linalg.norm(normal))
+        x, y, z = (normal / length).tolist() if length > 0 else AXES["x"]
+        self.choose(
+            is_cut=seen.get("cut", False),
+            normal=(x, y, z),
+            place=seen.get("place", VolumeLook.place),
+            is_flipped=seen.get("flipped", False),
+            spread=seen.get("spread", 0.0),
+        )
+        self.peel(seen.get("peeled", 0.0))
