@@ -46,7 +46,7 @@ def test_a_range_rises_at_once_and_falls_late(qapp: object) -> None:
 
 
 @pytest.mark.parametrize(("value", "high"), [(20.0, 24.0), (17.0, 24.0), (13.0, 14.0), (8.0, 9.0)])
-def test_at_the_end_of_a_run_most_of_the_scale_is_in_use(value: float, high: float, qapp: object) -> None:
+def test_where_nothing_runs_most_of_the_scale_is_in_use(value: float, high: float, qapp: object) -> None:
     colour_range = ColourRange(LIVE_QUANTITIES[2])
     colour_range.take(np.full(100, 20.0, np.float32))
     values = np.full(100, value, np.float32)

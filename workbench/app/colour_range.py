@@ -18,14 +18,14 @@ SHRINKS_BELOW = 0.15
 SHRINKS_BELOW_IN_FACTORS = 0.5
 """The same on a logarithmic scale, where ranges are alike in length for values that are far apart."""
 SHRINKS_BELOW_AT_REST = 0.6
-"""The same once a run is over: what is looked at then is the map, and most of the scale has to be in use."""
+"""The same where nothing runs: what is looked at then is the map, and most of the scale has to be in use."""
 
 
 class ColourRange(QObject):
     """Range, scale and colours of one quantity; `changed` tells all views that show it.
 
     The ends are round numbers beyond nearly all values. They move outwards at once and inwards only when the values
-    have shrunk far, or to half at the end of a run, so that colours keep their meaning while a map moves; `is_locked`
+    have shrunk far, or to half where a run stops, so that colours keep their meaning while a map moves; `is_locked`
     holds them. Beyond the ends the
     colours of the ends go on, or, where `is_clipped`, two others stand.
     """
@@ -59,7 +59,7 @@ class ColourRange(QObject):
         self._values = None
 
     def take(self, values: Floats, *, at_rest: bool = False) -> None:
-        """Fit the range to the values (m,) of a snapshot, `at_rest` at the end of a run; infinite ones do not count."""
+        """Fit the range to the values (m,) of a snapshot, `at_rest` where nothing runs; infinite ones do not count."""
         if values is self._values and not at_rest:
             return
         self._values = values

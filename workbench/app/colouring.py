@@ -123,7 +123,7 @@ class Colouring(QObject):
         for colour_range in (*(self._book.range_of(id) for id in self.shown()), *self._own_ranges()):
             values = snapshot.fields.get(colour_range.quantity.field)
             if values is not None:
-                colour_range.take(values, at_rest=snapshot.phase == "finished")
+                colour_range.take(values, at_rest=snapshot.phase in ("idle", "finished"))
 
     def apply(self, pane: ViewPane) -> None:
         """Give a view the colours of its style; a new mesh has none yet."""
