@@ -116,7 +116,9 @@ class TimeSlider(QWidget):
         key, modifiers = Qt.Key(event.key()), event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier
         if key in KEYS and modifiers in (Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier):
             count = KEYS[key] * (10 if modifiers else 1)
-            return lambda: self._want(max(self.index + count, 0))
+            # the newest map may have come since the mark was last moved to it
+            here = len(self._record) - 1 if self.is_live else self.index
+            return lambda: self._want(max(here + count, 0))
         if modifiers:
             return None
         return {
