@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QSlider, QWidget
+from PySide6.QtWidgets import QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import leaked_widgets
@@ -19,6 +19,7 @@ from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.app.panels.method_form import MethodForm
+from workbench.app.progress_bar import ProgressLine
 from workbench.app.reporter import in_window_words
 from workbench.app.settings import Settings
 from workbench.app.style import style_sheet
@@ -145,6 +146,29 @@ def test_many_buttons_leave_the_sentence_its_width(qtbot: QtBot) -> None:
     for fixes in ((), ("cut",), ("seams", "cut"), ("reorient", "cut"), ("reorient", "cut", "largest")):
         bar.show_message(sentence, fixes, "details")
         qtbot.waitUntil(lambda: bar.sentence.width() > 0.4 * bar.width())
+
+
+def test_a_bar_that_goes_leaves_its_keys_to_the_window_and_to_no_field(qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    fields = [QLineEdit(window)]
+    bar, progress = ErrorBar(LIGHT, window), ProgressLine(window)
+    fields.append(QLineEdit(window))
+    window.show()
+    window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)
+    bar.show_message("It is closed.", ("cut",))
+    progress.show()
+    for button in (bar.fix_buttons[0], bar.close_button, progress.cancel_button):
+        bar.show()
+        button.setFocus()
+        qtbot.waitUntil(button.hasFocus)
+        button.click()
+        assert not button.isVisible() and not any(field.hasFocus() for field in fields)
+    fields[1].setFocus()
+    bar.show()
+    bar.dismiss()
+    assert fields[1].hasFocus(), "who types goes on"
 
 
 def test_words_of_the_window_name_no_options() -> None:

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.focus_back import give_focus_back
 from workbench.app.theme import Theme
 
 FIX_LABELS = {
@@ -144,5 +145,6 @@ class ErrorBar(QFrame):
             self.dismiss()
 
     def dismiss(self) -> None:
+        give_focus_back(self)
         self.details.hide()
         self.hide()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
+from workbench.app.focus_back import give_focus_back
+
 DELAY = 350
 """Milliseconds before work is called long: shorter work leaves no flicker."""
 
@@ -46,6 +48,7 @@ class ProgressLine(QFrame):
 
     def end(self) -> None:
         self._delay.stop()
+        give_focus_back(self)
         self.hide()
 
     def _cancel(self) -> None:
