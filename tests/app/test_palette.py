@@ -132,8 +132,9 @@ def test_everything_in_menus_and_choices_is_listed(window: MainWindow) -> None:
         ("Preferences", "Appearance", "Size of text…"),
     ):
         assert expected in found
+    assert titles(entries, "sample:bar-3d") == ["Solid bar"], "as the command line calls it"
     assert len({id(entry) for entry in entries}) == len(entries) == len({(entry.place, entry.title) for entry in entries})
-    assert all(entry.reason for entry in entries if not entry.is_enabled)
+    assert not [entry.title for entry in entries if not entry.is_enabled and not entry.reason]
     for name, action in window.actions_by_name.items():
         assert any(entry.name == name for entry in entries) == action.isVisible(), name
 

@@ -167,6 +167,7 @@ def fill_samples(window: MainWindow, menu: QMenu) -> None:
             menu.addSeparator()
         kind = sample_kind(id)
         action = menu.addAction(source_name(f"sample:{id}"))
+        action.setObjectName(f"sample:{id}")  # found by what the command line calls it, too
         action.triggered.connect(lambda _=False, i=id: window.document.open_sample(i))
 
 

@@ -8,6 +8,7 @@ REASONS = {
     **dict.fromkeys(("run", "step", "reset", "save", "refine", "pin", "box", "clear", "fit", "race"), NO_MESH),
     "undo": "nothing was done yet",
     "redo": "nothing was taken back",
+    "export-unit": "no surface is mapped to the plane",
     "cut": NO_SOLID,
     "uncut": NO_SOLID,
     **dict.fromkeys(("past-live", "past-go-on"), "the views show the newest map"),

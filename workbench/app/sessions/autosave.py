@@ -161,7 +161,8 @@ class Autosave(QObject):
         is_today = at[:3] == time.localtime()[:3]
         when = time.strftime("today at %H:%M:%S" if is_today else "%d %B at %H:%M:%S", at)
         box.setText("The window did not end by itself last time.")
-        box.setInformativeText(f"This is left of it: {words},\nas of {when}.")
+        left_of_it = f"{words},\nas of {when}.".replace(" ", "\u00a0")  # a line each
+        box.setInformativeText(f"This is left of it:\n{left_of_it}")
         recover = box.addButton("Recover", QMessageBox.ButtonRole.AcceptRole)
         discard = box.addButton("Discard", QMessageBox.ButtonRole.DestructiveRole)
         ignore = box.addButton("Not now", QMessageBox.ButtonRole.RejectRole)
