@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -72,6 +73,27 @@ def test_dragging_moves_the_map_and_the_histogram(window: MainWindow, qtbot: QtB
     moved = window.document.anchors.targets[272]
     np.testing.assert_allclose(moved, target.position_at((begin.x() - 40.0, begin.y() + 30.0)), atol=0.02)
     assert window.reporter.drag_meter.recent is not None
+
+
+def test_a_map_that_went_out_of_sight_is_fitted_unless_somebody_looks_elsewhere(window: MainWindow) -> None:
+    view, positions = window.target.view, window.document.positions
+    width = np.ptp(positions, axis=0).max()
+    camera = view.camera
+    for away, is_fitted in (([0.4 * width, 0.0], False), ([0.0, 9.0 * width], True), ([-90.0 * width, 0.0], True)):
+        view.fit()
+        view.geometry_shown.write(positions + away)
+        view.points_changed()
+        before = view.camera
+        view.fit_if_it_is_gone()
+        assert (view.camera is not before) == is_fitted
+        at = view.project(view.geometry_shown.points)
+        assert (at.max(axis=0) > 0).all() and (at.min(axis=0) < view.size_in_pixels).all()
+        view.geometry_shown.write(positions)
+    view.set_camera(replace(camera, focal=camera.focal + [50.0, 0.0, 0.0]))
+    chosen = view.camera
+    view.fit_if_it_is_gone()
+    assert view.camera is chosen
+    view.fit()
 
 
 def test_a_drag_is_passed_on_at_most_sixty_times_a_second(window: MainWindow) -> None:

@@ -179,6 +179,8 @@ class Presenter(QObject):
             pane.view.points_changed()
             if not len(self._document.anchors):
                 pane.view.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+            elif not self._document.is_held:
+                pane.view.fit_if_it_is_gone()
         self._colouring.paint(pane)
         pane.view.refresh()
 
@@ -202,6 +204,8 @@ class Presenter(QObject):
         elif self._fits_next or not len(self._document.anchors):
             # whoever moves anchors wants the picture to stand still
             self.target.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+        elif not self._document.is_held:
+            self.target.fit_if_it_is_gone()  # a single anchor takes the whole map with it
         self._fits_next = False
         self._draw_soon()
         self.picture_sent.emit(snapshot.anchor_serial)

@@ -211,6 +211,14 @@ class MeshView(QWidget):
         if has_left or off_centre > 1.0 - least or max((right - left) / width, (bottom - top) / height) < least:
             self.fit()
 
+    def fit_if_it_is_gone(self) -> None:
+        """Fit once more where nothing is to be seen of the map, in a view whose camera nobody has touched."""
+        if not self._wants_fit or self.geometry_shown is None:
+            return
+        corners = self.project(box_corners(self.geometry_shown.points))
+        if (corners.max(axis=0) < 0).any() or (corners.min(axis=0) > self.size_in_pixels).any():
+            self.fit()
+
     def resizeEvent(self, event: QResizeEvent) -> None:
         self.canvas.setGeometry(self.rect())
         self.overlay.setGeometry(self.rect())
