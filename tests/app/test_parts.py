@@ -70,6 +70,15 @@ def test_history_grows_beyond_its_first_table() -> None:
     assert len(history.column("energy")) == 0
 
 
+def test_a_row_that_is_told_twice_stands_once() -> None:
+    nan = float("nan")
+    first, lower = HistoryRow(0, 0.0, 5.0, 1.0, nan, 0.0, 0, nan), HistoryRow(0, 0.0, 4.0, 1.0, nan, 0.0, 0, nan)
+    history = History()
+    for rows in ((first,), (first,), (lower, lower), (first,)):
+        history.extend(rows)
+    assert history.column("energy").tolist() == [5.0, 4.0, 5.0], "another energy at the same iteration is another row"
+
+
 def test_the_boundary_of_two_triangles_is_all_of_them() -> None:
     assert boundary_vertices(np.array([[0, 1, 2], [1, 3, 2]])).tolist() == [0, 1, 2, 3]
     fan = np.array([[0, i, i % 6 + 1] for i in range(1, 7)])

@@ -14,7 +14,10 @@ COLUMNS = tuple(field.name for field in fields(HistoryRow))
 
 
 class History:
-    """Columns of `HistoryRow` since the last start. Appending is O(1) a row; reading copies nothing."""
+    """Columns of `HistoryRow` since the last start. Appending is O(1) a row; reading copies nothing.
+
+    A row that is told once more, as after a pause, stands there once.
+    """
 
     def __init__(self, columns: tuple[str, ...] = COLUMNS) -> None:
         self._columns = columns
@@ -34,7 +37,8 @@ class History:
                 grown[:, : self._count] = self._table
                 self._table = grown
             self._table[:, self._count] = [getattr(row, name) for name in self._columns]
-            self._count += 1
+            is_new = not self._count or not np.array_equal(*self._table[:, self._count - 1 : self._count + 1].T, equal_nan=True)
+            self._count += is_new
 
     def column(self, name: str) -> Floats:
         """(k,) float64, a view"""
