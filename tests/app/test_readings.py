@@ -50,6 +50,10 @@ def test_the_panel_says_what_the_table_says_in_every_kind_of_view(reading: MainW
     QTest.keyClick(window, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier)
     lines = QGuiApplication.clipboard().text().splitlines()
     assert lines[0].startswith("triangle 100") and all("\t" in line for line in lines[2:])
+    QTest.keyClick(window, Qt.Key.Key_V)
+    assert not window.readings.panel.isVisible()
+    QTest.keyClick(window, Qt.Key.Key_V)
+    assert window.readings.panel.isVisible(), "the pointer need not move for it"
     Hand(window.target.view).move(QPoint(2, 2))
     qtbot.waitUntil(lambda: not window.readings.panel.isVisible())
     QTest.keyClick(window, Qt.Key.Key_V)

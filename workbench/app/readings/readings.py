@@ -68,17 +68,18 @@ class Readings(QObject):
             if self._window.document.mesh is not None and self._window.quantities.is_listed:
                 self._evaluators(self._window.document.mesh.dimension)  # a tenth of a second, once
             self._window.status.say("Point at a triangle or tetrahedron; Ctrl+Shift+C copies its numbers.")
+            self.read()  # who presses the key points at something already
         else:
-            self.hide()
+            self._window.status.say("Readings are off.")
+            self._timer.stop()
+            self.panel.hide()
 
     def _move(self, leaf: Leaf, event: QMouseEvent) -> None:
-        if not self.is_on:
-            return
         if event.buttons() != Qt.MouseButton.NoButton:
             self.hide()  # a hand that drags looks elsewhere
             return
         self._under = (leaf, (event.position().x(), event.position().y()))
-        if not self._timer.isActive():
+        if self.is_on and not self._timer.isActive():
             self._timer.start(PAUSE)
 
     def _map_came(self) -> None:
