@@ -14,7 +14,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
-from tests.app.conftest import Hand, WindowMaker, pixel_of
+from tests.app.conftest import Hand, WindowMaker, pixel_of, pixels_of
 from workbench.app.main_window import MainWindow
 from workbench.app.menus import fill_samples
 from workbench.app.views.mesh_view import MeshView
@@ -54,6 +54,25 @@ def test_hovering_shows_the_vertex_in_both_views(window: MainWindow, qtbot: QtBo
         assert pane.view.overlay.scene.hovered_point is None, "the mark is of the mesh before"
 
 
+def test_a_vertex_that_has_left_the_view_is_not_named_at_its_edge(window: MainWindow) -> None:
+    view = window.source.view
+    scene = view.overlay.scene
+
+    def name_shows() -> bool:
+        named = pixels_of(view)
+        vertex, scene.hovered = scene.hovered, -1
+        differs = bool((named != pixels_of(view)).any())
+        scene.hovered = vertex
+        return differs
+
+    Hand(view).move(pixel_of(view, 0))
+    assert scene.hovered == 0 and name_shows()
+    far = pixel_of(view, 272)
+    view.set_camera(view.camera.zoomed(20.0, (far.x(), far.y()), view.size_in_pixels))
+    assert scene.hovered == 0 and not view.rect().contains(pixel_of(view, 0)) and not name_shows()
+    window.commands.fit()
+
+
 def test_dragging_moves_the_map_and_the_histogram(window: MainWindow, qtbot: QtBot) -> None:
     target = window.target.view
     hand = Hand(target)
@@ -79,7 +98,12 @@ def test_a_map_that_went_out_of_sight_is_fitted_unless_somebody_looks_elsewhere(
     view, positions = window.target.view, window.document.positions
     width = np.ptp(positions, axis=0).max()
     camera = view.camera
-    for away, is_fitted in (([0.4 * width, 0.0], False), ([0.0, 9.0 * width], True), ([-90.0 * width, 0.0], True)):
+    for away, is_fitted in (
+        ([0.4 * width, 0.0], False),
+        ([0.0, 9.0 * width], True),
+        ([-90.0 * width, 0.0], True),
+        ([1.0 * width, 1.0 * width], True),
+    ):
         view.fit()
         view.geometry_shown.write(positions + away)
         view.points_changed()

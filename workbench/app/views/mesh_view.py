@@ -28,6 +28,8 @@ REACH_INSIDE = 60.0
 """The same over the mesh, where large triangles leave vertices far apart."""
 LEAST_SHOWN = 0.02
 """Size of what is shown at least where a place is looked at, of the size of the mesh."""
+LEAST_SEEN = 0.1
+"""Part of the box round a map below which a view counts as empty."""
 
 
 class MeshView(QWidget):
@@ -212,11 +214,13 @@ class MeshView(QWidget):
             self.fit()
 
     def fit_if_it_is_gone(self) -> None:
-        """Fit once more where nothing is to be seen of the map, in a view whose camera nobody has touched."""
+        """Fit once more where next to nothing is to be seen of the map, in a view whose camera nobody has touched."""
         if not self._wants_fit or self.geometry_shown is None:
             return
         corners = self.project(box_corners(self.geometry_shown.points))
-        if (corners.max(axis=0) < 0).any() or (corners.min(axis=0) > self.size_in_pixels).any():
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        seen = np.minimum(high, self.size_in_pixels) - np.maximum(low, 0.0)
+        if (seen < 0).any() or np.prod(seen) < LEAST_SEEN * np.prod(high - low):
             self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
