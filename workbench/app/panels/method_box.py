@@ -38,7 +38,8 @@ class MethodBox(QWidget):
 
     def show_choices(self, methods: Mapping[str, type[Method]], kind: str) -> None:
         """Fill the list with what serves a kind of map."""
-        self._methods = {id: method for id, method in methods.items() if not kind or kind in method.kinds}
+        fitting = {id: method for id, method in methods.items() if not kind or kind in method.kinds}
+        self._methods = dict(sorted(fitting.items(), key=lambda item: item[1].label.lower()))
         self.combo.blockSignals(True)
         self.combo.clear()
         for id, method in self._methods.items():
