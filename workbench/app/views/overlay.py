@@ -212,6 +212,8 @@ class Overlay(QWidget):
         if scene.hovered < 0 or scene.hovered_point is None:
             return
         (point,) = self._view.project(scene.hovered_point[None, :])
+        if not self.rect().adjusted(-10, -10, 10, 10).contains(round(point[0]), round(point[1])):
+            return  # the view has turned elsewhere since: in its corner the label would be of nothing there
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor(self.theme.view), 4.0))
         painter.drawEllipse(QPointF(*point), 10.0, 10.0)
