@@ -1,6 +1,6 @@
 """The pictures of the README: the window on its first sample in a lively pose, a race, the inspector on a formula, solids.
 
-    xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
+xvfb-run -s "-screen 0 1600x1000x24" python assets/screenshots/make.py [light|dark]
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ application = make_application()
 
 import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
-from PySide6.QtTest import QTest  # noqa: E402
+from PySide6.QtWidgets import QWidget  # noqa: E402
 
 from workbench.app.anchor_set import AnchorSet  # noqa: E402
 from workbench.app.main_window import MainWindow  # noqa: E402
@@ -61,19 +61,50 @@ def main(theme: str = "light") -> None:
                 share = step / STEPS
                 target = places[row] + [diameter * share * move[0], diameter * share * move[1]]
                 document.move_anchor(vertex, target, step < STEPS)
-                QTest.qWait(16)
+                rest(16)
             until(lambda: not document.is_at_work)
         window.commands.fit()
         window.turns.draw_all()
-        QTest.qWait(700)
-        window.commands.save_screenshot(window, str(here / "window.png"))
+        rest(700)
+        save(window, window, here / "window.png")
+        show_tools(window, here / "tools.png")
         show_race(window, here / "race.png")
         show_inspector(window, here / "inspector.png")
         show_solid(window, Path(folder) / "bar.npz", here / "volume.png")
         show_carried(window, here / "carried.png")
         window.close()
-    for name in ("window", "race", "inspector", "volume", "carried"):
+    for name in ("window", "tools", "race", "inspector", "volume", "carried"):
         smaller(here / f"{name}.png")
+
+
+def show_tools(window: MainWindow, path: Path) -> None:
+    """What becomes of equal circles, the table of anchors, and the time line at an earlier moment."""
+    actions, style = window.actions_by_name, window.colouring.style_of(window.target)
+    panels = [dock for dock in window.docks if dock.windowTitle() in ("Anchors", "Time line")]
+    window.set_target_style("plain")
+    window.set_source_style("plain")
+    actions["glyphs-ellipses"].trigger()
+    for _ in range(3):
+        actions["glyphs-fewer"].trigger()
+    actions["scale-bar"].trigger()
+    for panel in panels:
+        panel.show()
+        panel.raise_()
+    document = window.document
+    document.select(int(document.anchors.vertices[0]))
+    rest(500)
+    window.commands.fit()
+    window.time_line.looking.show(round(0.8 * len(window.time_line.recorder.record)))
+    window.turns.draw_all()
+    rest(1500)
+    save(window, window, path)
+    window.time_line.looking.go_live()
+    actions["glyphs-none"].trigger()
+    actions["scale-bar"].trigger()
+    window.set_source_style("checkerboard")
+    for panel in panels:
+        panel.hide()
+    window.set_target_style(style)
 
 
 def show_race(window: MainWindow, path: Path) -> None:
@@ -87,8 +118,8 @@ def show_race(window: MainWindow, path: Path) -> None:
     until(lambda: race.model.is_over)
     race.model.seek_to("iteration", MOMENT)
     until(lambda: all(record.frame.iteration <= MOMENT for record in race.model.records))
-    QTest.qWait(1500)
-    window.commands.save_screenshot(race, str(path))
+    rest(1500)
+    save(window, race, path)
     race.close()
 
 
@@ -105,7 +136,12 @@ def show_inspector(window: MainWindow, path: Path) -> None:
     with tempfile.TemporaryDirectory() as folder:
         for number in range(3):
             inspector.tabs.setCurrentIndex(number)
-            QTest.qWait(4000)
+            rest(4000)
+            until(
+                lambda: (
+                    "Looking" not in inspector.formula.badges.detail.text() and inspector.formula.picture.drawing is not None
+                )
+            )
             file = Path(folder) / f"{number}.png"
             inspector.grab().save(str(file))
             pages.append(Image.open(file).convert("RGB"))
@@ -139,8 +175,8 @@ def show_solid(window: MainWindow, case: Path, path: Path) -> None:
     window.volume.choose(is_exact=True, place=0.62)
     window.commands.fit()
     window.turns.draw_all()
-    QTest.qWait(1000)
-    window.commands.save_screenshot(window, str(path))
+    rest(1000)
+    save(window, window, path)
 
 
 def show_carried(window: MainWindow, path: Path) -> None:
@@ -166,8 +202,18 @@ def show_carried(window: MainWindow, path: Path) -> None:
     window.set_target_style("plain")
     window.commands.fit()
     window.turns.draw_all()
-    QTest.qWait(1000)
+    rest(1000)
     window.grab(window.centralWidget().geometry()).save(str(path))
+
+
+def save(window: MainWindow, widget: QWidget, path: Path) -> None:
+    """Write a picture, and let nothing in the window speak of where to."""
+    path.unlink(missing_ok=True)
+    sentence = window.status.sentence.text()
+    window.commands.save_screenshot(widget, str(path))
+    until(path.exists)
+    rest(300)
+    window.status.say(sentence)
 
 
 def smaller(path: Path) -> None:
@@ -177,12 +223,20 @@ def smaller(path: Path) -> None:
     reduced.save(path, optimize=True)
 
 
+def rest(milliseconds: float) -> None:
+    """Let the window live; threads get the interpreter in between."""
+    end = time.monotonic() + milliseconds / 1000
+    while time.monotonic() < end:
+        application.processEvents()
+        time.sleep(0.002)
+
+
 def until(holds: Callable[[], bool], seconds: float = 60.0) -> None:
     end = time.monotonic() + seconds
     while not holds():
         if time.monotonic() > end:
             raise TimeoutError("the engine did not answer")
-        QTest.qWait(20)
+        rest(20)
 
 
 if __name__ == "__main__":

@@ -140,8 +140,9 @@ class Reporter(QObject):
         window.sessions.show_title()
         mesh = loaded.mesh
         simplices = f"{counted(mesh.simplex_count)} {mesh.simplex_noun(mesh.simplex_count)}"
-        window.source.caption.setText(f"{counted(mesh.vertex_count)} vertices, {simplices}")
-        window.source.caption.setToolTip("\n".join(loaded.lines))
+        vertices = f"{counted(mesh.vertex_count)} vertices"
+        window.source.caption.setText(f"{simplices}, {vertices}")  # what is cut off first comes last
+        window.source.caption.setToolTip("\n".join((f"{simplices}, {vertices}", *loaded.lines)))
         window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
         surface = window.source.view.surface
         window.actions_by_name["edges"].setChecked(surface is not None and surface.has_edges)

@@ -74,6 +74,7 @@ def calm(plot: pg.PlotItem, owner: QWidget) -> None:
     plot.setMenuEnabled(False)
     plot.hideButtons()
     plot.setMouseEnabled(False, False)
+    plot.setContentsMargins(0, 0, OVERHANG, 0)
     for menu in (plot.ctrlMenu, plot.getViewBox().menu):
         if menu is not None:
             menu.setParent(owner, Qt.WindowType.Popup)

@@ -20,9 +20,9 @@ CHAPTER_OF = {
     "InspectorDock": "Write a distortion",
     "FormulaEdit": "Write a distortion",
     "DistortionBox": "Write a distortion",
-    "SetUpDialog": "The first minute",
-    "RaceWindow": "The first minute",
-    "SignatureWindow": "The first minute",
+    "SetUpDialog": "The window, part by part",
+    "RaceWindow": "The window, part by part",
+    "SignatureWindow": "The window, part by part",
     "QFileDialog": "Files",
     "LogDock": "Sessions",
 }
