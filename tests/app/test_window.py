@@ -65,11 +65,11 @@ def test_a_vertex_that_has_left_the_view_is_not_named_at_its_edge(window: MainWi
         scene.hovered = vertex
         return differs
 
-    scene.hovered = 0  # a pointer that rests elsewhere on the screen may be told of at any time
+    window.presenter.hover(0)  # a pointer that rests elsewhere on the screen may be told of at any time
     assert name_shows()
     far = pixel_of(view, 272)
     view.set_camera(view.camera.zoomed(20.0, (far.x(), far.y()), view.size_in_pixels))
-    scene.hovered = 0
+    window.presenter.hover(0)
     assert not view.rect().contains(pixel_of(view, 0)) and not name_shows()
     window.commands.fit()
 
