@@ -24,7 +24,7 @@ from workbench.io.atomic import replacing
 FORMATS = (".gif", ".mp4")
 INSTALL = (
     "MP4 needs the program ffmpeg: install it (apt install ffmpeg, brew install ffmpeg), "
-    'or pip install "distortion-workbench[film]", in a checkout pip install ".[film]"; a GIF needs neither.'
+    'or in a checkout pip install ".[film]"; a GIF needs neither.'
 )
 PALETTE_FROM = 6
 """Frames from which the colours of a GIF are taken, all over the film."""
