@@ -26,7 +26,7 @@ from workbench.engine.child import WithoutMainModule, exit_words
 from workbench.engine.filling_child import FillJob, fill_main
 
 MESHER = "pytetwild"
-INSTALL = 'pip install "distortion-workbench[fill]", or in a checkout pip install ".[fill]"'
+INSTALL = 'pip install ".[fill]" in a checkout of the program'
 RELATIVE_EDGE = 1.0 / 20.0
 """Edge length where none is asked for, in diagonals of the bounding box."""
 ENVELOPE = 1e-3
