@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import WindowMaker, pixels_of
 from tests.app.fake_engine import bumpy_mesh, grid_mesh
-from workbench.app.first_start import with_own_start
+from workbench.app.first_start import why_not_own_start, with_own_start
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.texturing.picture_file import KEPT_SIDE, read_picture
@@ -202,6 +202,9 @@ def test_layout_and_picture_are_there_again(make_window: WindowMaker, tmp_path: 
     assert window.texturing.kept() == {"picture": str(picture)}, "nothing but what is unusual, and can be"
 
 
+NO_EDGES = np.empty((0, 2), np.int64)
+
+
 def test_a_surface_begins_with_the_map_of_its_file() -> None:
     mesh, flat = bumpy_mesh(), grid_mesh().vertices
 
@@ -215,6 +218,14 @@ def test_a_surface_begins_with_the_map_of_its_file() -> None:
     assert begun(whole, source="sample:bumpy-disc").initializer == ""
     assert begun(None).initializer == ""
     assert begun(TextureCoordinates(0.0 * flat, mesh.simplices)).initializer == "", "a map without area is none"
+    folded = flat.copy()
+    folded[22] += [1.5, 0.0]  # an inner vertex beyond its neighbours
+    assert begun(TextureCoordinates(folded, mesh.simplices)).initializer == "", "no solver goes on from that"
+    told = Loaded(1, replace(mesh, texture=TextureCoordinates(folded, mesh.simplices)), "parameterize", (), NO_EDGES, "m.obj")
+    assert "triangles over" in why_not_own_start(told, Session(source="m.obj"))
+    told = Loaded(1, replace(mesh, texture=whole), "parameterize", (), NO_EDGES, "m.obj")
+    assert why_not_own_start(told, Session(source="m.obj")) == ""
+    assert begun(TextureCoordinates(flat * [1, -1], mesh.simplices)).initializer == "file", "face down throughout"
     seam = np.array(mesh.simplices)
     seam[0, 0] = len(flat)
     torn = TextureCoordinates(np.vstack([flat, [[9.0, 9.0]]]), seam)

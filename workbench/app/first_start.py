@@ -19,10 +19,30 @@ def has_own_map(session: Session) -> bool:
 
 
 def with_own_start(loaded: Loaded, session: Session) -> Session:
-    """The choices with the file's own map as the start, where it has one that leaves every triangle an area."""
-    if loaded.kind != "parameterize" or is_sample(session.source):
-        return session
-    positions = texture_at_vertices(loaded.mesh)
-    if positions is None or not np.abs(determinants(build_elements(loaded.mesh), positions)).min() > 0:
+    """The choices with the file's own map as the start, where it has one that a solver can go on from."""
+    turns = _turns(loaded, session)
+    if turns is None or min(turns) > 0:
         return session
     return replace(session, initializer="file", start_file=session.source)
+
+
+def why_not_own_start(loaded: Loaded, session: Session) -> str:
+    """A sentence where the file has a map, and the start is another one; else empty."""
+    turns = _turns(loaded, session)
+    if turns is None or min(turns) == 0:
+        return ""
+    return (
+        f"The texture coordinates of the file turn {min(turns)} of {loaded.mesh.simplex_count} triangles over or flatten them, "
+        "so the map begins elsewhere; Start > From a file shows them."
+    )
+
+
+def _turns(loaded: Loaded, session: Session) -> tuple[int, int] | None:
+    """How many triangles the file's own map does not leave face up, and how many not face down; None where it has none."""
+    if loaded.kind != "parameterize" or is_sample(session.source):
+        return None
+    positions = texture_at_vertices(loaded.mesh)
+    if positions is None:
+        return None
+    found = determinants(build_elements(loaded.mesh), positions)
+    return int(np.count_nonzero(~(found > 0))), int(np.count_nonzero(~(found < 0)))

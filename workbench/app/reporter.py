@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from workbench.app.actions import show_running
 from workbench.app.first_anchors import SAMPLE, is_sample
+from workbench.app.first_start import why_not_own_start
 from workbench.app.meters import DragMeter, RateMeter
 from workbench.core.errors import WorkbenchError
 from workbench.core.samples import sample_label
@@ -143,7 +144,8 @@ class Reporter(QObject):
         vertices = f"{counted(mesh.vertex_count)} vertices"
         window.source.caption.setText(f"{simplices}, {vertices}")  # what is cut off first comes last
         window.source.caption.setToolTip("\n".join((f"{simplices}, {vertices}", *loaded.lines)))
-        window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
+        refused_start = why_not_own_start(loaded, document.session)
+        window.status.say(refused_start or (loaded.lines[0] if loaded.lines else f"{name} is open."))
         surface = window.source.view.surface
         window.actions_by_name["edges"].setChecked(surface is not None and surface.has_edges)
 
