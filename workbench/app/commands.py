@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from workbench.app.exporting.exporting import Exporting
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT
 from workbench.app.method_tips.chooser_tips import ChooserTips
+from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.palette.commanding import Commanding
 from workbench.app.race.racing import Racing
 from workbench.app.refining import Refining
@@ -35,9 +36,7 @@ if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
     from workbench.app.signatures.signature_window import SignatureWindow
 
-MESH_FILTERS = (
-    "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.meshb *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
-)
+MESH_FILTERS = "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.meshb *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
 
 
 class Commands(QObject):
@@ -144,16 +143,13 @@ class Commands(QObject):
         self._window.open(path)
 
     def ask_save(self) -> None:
-        name = Path(self._document.session.source.replace("sample:", "")).stem + "-map.obj"
+        name = stem_of(self._document.session.source) + "-map.obj"
         self._ask_place("Save the map", name, FILTERS, self.save_map)
 
     def _ask_place(self, title: str, name: str, filters: str, deed: Any) -> None:
-        """Ask for a file to write; its ending is that of the filter, OBJ first."""
-        dialog = QFileDialog(self._window, title, str(Path(self._window.settings.folder) / name), filters)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("obj")
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(suffix_of(chosen)))
-        self._ask(dialog, deed)
+        """Ask for a file to write; its ending is that of the filter, the name's first."""
+        place = Path(self._window.settings.folder) / name
+        ask_new_file(self._window, title, str(place), filters, place.suffix[1:], deed, overwrites=True)
 
     def save_map(self, path: str) -> None:
         """Write the map as it is now; the window goes on meanwhile."""
@@ -194,11 +190,7 @@ class Commands(QObject):
             self._ask_place("Save the carried surface", name, SURFACE_FILTERS, self._window.carried.save)
 
     def ask_screenshot(self, widget: QWidget, name: str) -> None:
-        folder = Path(self._window.settings.folder)
-        dialog = QFileDialog(self._window, f"Screenshot of the {name}", str(folder / f"{name}.png"), "PNG (*.png)")
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("png")
-        self._ask(dialog, lambda path: self.save_screenshot(widget, path))
+        self._ask_place(f"Screenshot of the {name}", f"{name}.png", "PNG (*.png)", partial(self.save_screenshot, widget))
 
     def save_screenshot(self, widget: QWidget, path: str) -> None:
         """Write a picture of a widget with all that is in it."""
@@ -313,12 +305,6 @@ class Commands(QObject):
         box.setText(text)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
-
-
-def suffix_of(name_filter: str) -> str:
-    """First ending that a name filter of a dialog stands for; OBJ where it stands for all."""
-    found = re.search(r"\*\.(\w+)", name_filter)
-    return found.group(1) if found else "obj"
 
 
 def boundary_vertices(triangles: Any) -> Any:

@@ -1,11 +1,15 @@
-"""Asking for the name of a file that is not there yet."""
+"""Asking for the name of a file that is to be written."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
+
+from workbench.io.opening import SAMPLE
 
 
 def ask_new_file(
@@ -27,7 +31,18 @@ def ask_new_file(
     dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
     dialog.setOption(QFileDialog.Option.DontConfirmOverwrite, not overwrites)
     dialog.setDefaultSuffix(suffix)
-    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
+    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(ending_of(chosen) or suffix))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.fileSelected.connect(take)
     dialog.open()
+
+
+def ending_of(name_filter: str) -> str:
+    """First ending that a name filter of a dialog stands for; empty where it stands for all."""
+    found = re.search(r"\*\.(\w+)", name_filter)
+    return found.group(1) if found else ""
+
+
+def stem_of(source: str) -> str:
+    """What files that are made of a source are called: its own name without the ending, or the sample's."""
+    return Path(source.replace(SAMPLE, "")).stem

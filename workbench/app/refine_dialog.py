@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QGroupBox,
     QHBoxLayout,
@@ -214,13 +213,8 @@ class RefineDialog(QDialog):
         self.save.setEnabled(False)
 
     def _ask_figure(self) -> None:
-        dialog = QFileDialog(self, "Save the figure", str(self._folder / f"{self._stem}-levels.pdf"), FIGURE_FILTERS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("pdf")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.partition("*.")[2].rstrip(")")))
-        dialog.fileSelected.connect(self.figure_wanted.emit)
-        dialog.open()
+        place = str(self._folder / f"{self._stem}-levels.pdf")
+        ask_new_file(self, "Save the figure", place, FIGURE_FILTERS, "pdf", self.figure_wanted.emit, overwrites=True)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         self.closed.emit()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from workbench.app.background import Backgrounds
+from workbench.app.new_file import stem_of
 from workbench.app.refine_dialog import RefineDialog
 from workbench.app.refine_work import CurvePicture, CurveRequest, RefineRequest, draw_curves, refine_into
 from workbench.app.reporter import source_name
@@ -38,7 +39,7 @@ class Refining(QObject):
         if document.mesh is None or document.positions is None or self.dialog is not None:
             return
         source = document.session.source
-        stem = Path(source.replace("sample:", "")).stem
+        stem = stem_of(source)
         dialog = RefineDialog(document.mesh, stem, self._window.settings.folder, self._window)
         dialog.refine_wanted.connect(self._refine)
         dialog.curves_wanted.connect(self._measure)

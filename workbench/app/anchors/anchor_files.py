@@ -13,6 +13,7 @@ from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_dock import AnchorDock
 from workbench.app.anchors.anchor_edits import set_of, table_of
 from workbench.app.background import Backgrounds
+from workbench.app.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.io.anchor_rows import AnchorTable
 from workbench.io.anchors import read_anchors, vertices_after_fixes, vertices_before_fixes, write_anchors
@@ -121,14 +122,9 @@ class AnchorFiles(QObject):
         if not len(self._document.anchors):
             self._window.status.say("There are no anchors to export.")
             return
-        name = Path(self._document.session.source.replace("sample:", "")).stem + "-anchors.csv"
+        name = stem_of(self._document.session.source) + "-anchors.csv"
         place = str(Path(self._window.settings.folder) / name)
-        dialog = QFileDialog(self._window, "Export anchors", place, FILTERS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("csv")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.write)
-        dialog.open()
+        ask_new_file(self._window, "Export anchors", place, FILTERS, "csv", self.write, overwrites=True)
 
     def write(self, path: str) -> None:
         """Write all anchors, those that are off among them."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QTimer, Signal
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QFontDatabase, QShowEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
 from workbench.app.document import Document
+from workbench.app.new_file import ask_new_file
 from workbench.core.constraints import LinearConstraints
 from workbench.core.errors import WorkbenchError
 from workbench.core.linear_equations import linear_constraints, read_equations
@@ -105,16 +106,20 @@ class EquationDialog(QDialog):
             self._show_error(error.sentence)
 
     def _ask_open(self) -> None:
-        path, _ = QFileDialog.getOpenFileName(self, "Open linear equations", self._folder, FILTER)
-        if path:
-            self._use_folder(path)
-            self.open(path)
+        dialog = QFileDialog(self, "Open linear equations", self._folder, FILTER)
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        dialog.fileSelected.connect(self._use_folder)
+        dialog.fileSelected.connect(self.open)
+        dialog.open()
 
     def _ask_save(self) -> None:
-        path, _ = QFileDialog.getSaveFileName(self, "Save linear equations", str(Path(self._folder) / "equations.txt"), FILTER)
-        if path:
-            self._use_folder(path)
-            self.save(path)
+        place = str(Path(self._folder) / "equations.txt")
+        ask_new_file(self, "Save linear equations", place, FILTER, "txt", self._save_there, overwrites=True)
+
+    def _save_there(self, path: str) -> None:
+        self._use_folder(path)
+        self.save(path)
 
     def _use_folder(self, path: str) -> None:
         self._folder = str(Path(path).parent)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase, QGuiApplication
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
+from workbench.app.new_file import ask_new_file
 from workbench.core.bibliography import Cited, bibtex
 
 EXPLANATION = (
@@ -52,9 +53,4 @@ class CitationDialog(QDialog):
         self.copy_button.setText("Copied")
 
     def _ask_save(self) -> None:
-        dialog = QFileDialog(self, "Save the bibliography", self._place, FILTER)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("bib")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.save_wanted)
-        dialog.open()
+        ask_new_file(self, "Save the bibliography", self._place, FILTER, "bib", self.save_wanted.emit, overwrites=True)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt
 
 from workbench.app.citing.citation_dialog import CitationDialog
+from workbench.app.new_file import stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.engine.citing import cited_in
 from workbench.io.atomic import write_text
@@ -29,7 +30,7 @@ class Citing(QObject):
         window = self._window
         desk, loaded = window.sessions.desk, window.document.loaded
         methods = cited_in(desk.record(), loaded.kind) if desk.has_something and loaded is not None else ()
-        stem = Path(window.document.session.source.replace("sample:", "")).stem or "workbench"
+        stem = stem_of(window.document.session.source) or "workbench"
         if self.dialog is not None:
             self.dialog.close()
         dialog = self.dialog = CitationDialog(methods, window.settings.folder, stem, window)

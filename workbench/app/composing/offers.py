@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.app.composing.figure_work import NAME, Subject
 from workbench.app.history import COLUMNS
+from workbench.app.new_file import stem_of
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS
 from workbench.core.measure import Measure
@@ -49,7 +49,7 @@ def subject_of(window: MainWindow) -> Subject | None:
         anchor_targets=given.anchor_targets,
         carried=window.carried.source,
     )
-    stem = Path(given.source.replace("sample:", "")).stem
+    stem = stem_of(given.source)
     rows, carried = rows_of(window.history), window.carried.surface
     return Subject(stem, session, loaded.mesh, loaded.kind, shown.positions, rows, carried)  # type: ignore[arg-type]
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QFileDialog, QMenu
+from PySide6.QtWidgets import QMenu
 
 from workbench.app.background import Backgrounds
 from workbench.app.composing.composing import sentence_of
@@ -17,15 +17,16 @@ from workbench.app.composing.figure_work import Order, save
 from workbench.app.composing.offers import offers_of, rows_of, subject_of
 from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, OTHER_KINDS, PICTURE_KINDS, ExportKind
 from workbench.app.exporting.session_pictures import png_of, session_binder
+from workbench.app.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.core.unit_square import into_unit_square
 from workbench.engine.python_script import write_script
 from workbench.engine.run_report import history_text
-from workbench.engine.session_file import source_digest
 from workbench.figures.recipe import Page
 from workbench.io.atomic import write_bytes, write_text
-from workbench.io.opening import open_source
+from workbench.io.opening import OpenedSource, open_source
 from workbench.io.write import write_map
+from workbench.session.session import Session
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -67,13 +68,10 @@ class Exporting(QObject):
     def ask(self, name: str) -> None:
         """Ask where to, with a name that tells the mesh and the kind."""
         window, kind = self._window, KINDS[name]
-        stem = Path(window.document.session.source.replace("sample:", "")).stem
-        dialog = QFileDialog(window, _title(kind), str(Path(window.settings.folder) / (stem + kind.name)), kind.filters)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(Path(kind.name).suffix[1:])
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(chosen.rpartition("*.")[2].rstrip(")")))
-        dialog.fileSelected.connect(lambda path: self.export(name, path))
-        dialog.open()
+        stem = stem_of(window.document.session.source)
+        place = str(Path(window.settings.folder) / (stem + kind.name))
+        suffix, take = Path(kind.name).suffix[1:], partial(self.export, name)
+        ask_new_file(window, _title(kind), place, kind.filters, suffix, take, overwrites=True)
 
     def export(self, name: str, path: str) -> None:
         """Write this kind of file as the window shows it now."""
@@ -97,21 +95,19 @@ class Exporting(QObject):
         self._start(lambda: write_text(path, history_text(rows)), path)
 
     def _write_script(self, path: str) -> None:
-        record = self._window.sessions.desk.record()
-        session = record.session
+        seal = self._window.sessions.desk.sealer()
 
         def work() -> None:
-            opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
-            write_script(path, replace(record, sha256=source_digest(session.source)), opened)
+            record = seal()
+            write_script(path, record, _opened(record.session))
 
         self._start(work, path)
 
     def _write_in_unit_square(self, path: str) -> None:
         record = self._window.sessions.desk.record()
-        session = record.session
 
         def work() -> None:
-            opened = open_source(session.source, kind=session.kind, fixes=session.fixes)
+            opened = _opened(record.session)
             write_map(path, opened.file.mesh, opened.mesh, into_unit_square(record.map), opened.kind)
 
         self._start(work, path)
@@ -145,6 +141,11 @@ class Exporting(QObject):
             window.status.say(" ".join((f"Saved {path}.", *(notes if isinstance(notes, tuple) else ()))))
 
         self._works.start(work, done, fail)
+
+
+def _opened(session: Session) -> OpenedSource:
+    """The source once more, with what the window does not hold of its file; for threads."""
+    return open_source(session.source, kind=session.kind, fixes=session.fixes)
 
 
 def _title(kind: ExportKind) -> str:

@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.filling.fill_work import FillRequest, check_request
-from workbench.app.new_file import ask_new_file
+from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.refine_work import free_name
 from workbench.core.errors import WorkbenchError
 
@@ -115,7 +115,7 @@ class FillDialog(QDialog):
         self.error.hide()
         if not self._own_name:
             return
-        stem = Path(self.source.text().strip().replace("sample:", "")).stem or "solid"
+        stem = stem_of(self.source.text().strip()) or "solid"
         self.file.setText(str(free_name(self._folder, f"{stem}-filled", ".mesh")))
 
     def _typed(self) -> None:

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QDockWidget,
-    QFileDialog,
     QHBoxLayout,
     QHeaderView,
     QLabel,
@@ -25,6 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.docks.dock_title import DockTitle
+from workbench.app.new_file import ask_new_file
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import NoticeList
 from workbench.core.errors import WorkbenchError
@@ -163,12 +163,7 @@ class LogDock(QDockWidget):
         self.raise_()
 
     def _ask_save(self) -> None:
-        dialog = QFileDialog(self, "Save the log", "workbench-log.txt", "Text (*.txt)")
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("txt")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.save)
-        dialog.open()
+        ask_new_file(self, "Save the log", "workbench-log.txt", "Text (*.txt)", "txt", self.save, overwrites=True)
 
     def _choose(self) -> None:
         self._shown.choose(self.level.currentData(), self.search.text())

@@ -90,11 +90,11 @@ class SessionDesk(QObject):
         """Write the session as it is now, on a thread; a copy leaves name and mark of the window alone."""
         if not self.has_something:
             return
-        record, generation = self.record(), self._document.generation
+        seal = self.sealer()
         was_modified, self.is_modified = self.is_modified, self.is_modified if is_copy else False
 
         def work() -> str:
-            write_session(path, self._sealed(record, generation))
+            write_session(path, seal())
             return path
 
         def done(_: Any) -> None:
@@ -111,17 +111,22 @@ class SessionDesk(QObject):
 
         self._begin(work, done, failed)
 
-    def _sealed(self, record: SessionRecord, generation: int) -> SessionRecord:
-        """The same with the sha256 of its mesh; for threads."""
-        digest = self._digests.get(generation)
-        if digest is None:
-            digest = self._digests[generation] = source_digest(record.session.source)
-        return replace(record, sha256=digest)
+    def sealer(self) -> Callable[[], SessionRecord]:
+        """What gives the record of this moment with the sha256 of its mesh; for threads."""
+        record, generation = self.record(), self._document.generation
+
+        def seal() -> SessionRecord:
+            digest = self._digests.get(generation)
+            if digest is None:
+                digest = self._digests[generation] = source_digest(record.session.source)
+            return replace(record, sha256=digest)
+
+        return seal
 
     def binder(self, path: str | Path) -> Callable[[bytes], bytes]:
         """What makes of a PNG for `path` one that carries the session as it is now; for threads."""
-        record, generation = self.record(), self._document.generation
-        return lambda picture: picture_with_session(picture, path, self._sealed(record, generation))
+        seal = self.sealer()
+        return lambda picture: picture_with_session(picture, path, seal())
 
     # ------------------------------------------------------------------------------------------ opening
 

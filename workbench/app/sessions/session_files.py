@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
 
+from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.reporter import source_name
 from workbench.app.sessions.session_desk import FILTERS, Found, SessionDesk
 from workbench.core.errors import WorkbenchError
@@ -50,14 +51,9 @@ class SessionFiles(QObject):
         if not self.desk.has_something:
             return
         window = self._window
-        name = Path(self.desk.path).name or Path(window.document.session.source.replace("sample:", "")).stem + ENDING
-        dialog = QFileDialog(window, "Save the session", str(Path(window.settings.folder) / name), FILTERS)
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix(ENDING[1:])
-        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix("json" if "json" in chosen else ENDING[1:]))
-        dialog.fileSelected.connect(self.save_to)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.open()
+        name = Path(self.desk.path).name or stem_of(window.document.session.source) + ENDING
+        place = str(Path(window.settings.folder) / name)
+        ask_new_file(window, "Save the session", place, FILTERS, ENDING[1:], self.save_to, overwrites=True)
 
     def save_to(self, path: str) -> None:
         """Write the session to this file, which is its own from now on."""

@@ -10,7 +10,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QLabel,
     QLineEdit,
     QTextBrowser,
@@ -18,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.new_file import ask_new_file
 from workbench.app.shortcuts.sheet import Sheet, as_html, as_text, filtered
 
 NAME = "keys.pdf"
@@ -71,12 +71,8 @@ class SheetWindow(QDialog):
         self.note.setText("Copied.")
 
     def _ask_file(self) -> None:
-        dialog = QFileDialog(self, "Save the sheet", str(Path(self._folder) / NAME), "PDF (*.pdf)")
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("pdf")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.save)
-        dialog.open()
+        place = str(Path(self._folder) / NAME)
+        ask_new_file(self, "Save the sheet", place, "PDF (*.pdf)", "pdf", self.save, overwrites=True)
 
     def save(self, path: str) -> None:
         """Write what is shown as pages, black on white whatever the theme."""

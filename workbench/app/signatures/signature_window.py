@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.background import Background
+from workbench.app.new_file import ask_new_file
 from workbench.app.signatures.comparison import Comparison, ComparisonChoices, compare
 from workbench.app.signatures.density_plot import DensityPlot
 from workbench.app.signatures.map_list import MapList
@@ -220,12 +222,8 @@ class SignatureWindow(QDialog):
     # ------------------------------------------------------------------------------------------ saving
 
     def _ask_place(self, what: str) -> None:
-        dialog = QFileDialog(self, f"Save the {what}", str(Path(self._folder) / f"{what}.csv"), "CSV (*.csv)")
-        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setDefaultSuffix("csv")
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda path: self.save(what, path))
-        dialog.open()
+        place = str(Path(self._folder) / f"{what}.csv")
+        ask_new_file(self, f"Save the {what}", place, "CSV (*.csv)", "csv", partial(self.save, what), overwrites=True)
 
     def save(self, what: str, path: str) -> None:
         """Write `distances` or `histograms` as the command line does."""

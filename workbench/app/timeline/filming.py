@@ -14,6 +14,7 @@ from workbench.app.background import Backgrounds
 from workbench.app.composing.composing import sentence_of
 from workbench.app.composing.offers import offers_of
 from workbench.app.inspector.latest import Latest
+from workbench.app.new_file import stem_of
 from workbench.app.timeline.film_dialog import FilmDialog
 from workbench.app.timeline.film_plan import FilmPlan, frames_of, sentence_about, still_of
 from workbench.core.errors import WorkbenchError
@@ -72,7 +73,7 @@ class Filming(QObject):
         offers = [offer for offer in offers_of(window) if offer.panel.is_picture]
         usual = {1, len(offers) - 1}  # the target, and the last of the colour maps: few pictures are large ones
         offers = [replace(offer, is_chosen=place in usual) for place, offer in enumerate(offers)]
-        stem = Path(window.document.session.source.replace("sample:", "")).stem
+        stem = stem_of(window.document.session.source)
         place = Path(window.settings.folder) / f"{stem}.gif"
         is_marked = len(self._time_line.dock.slider.marked) == 2
         self.dialog = FilmDialog(offers, window.theme.is_dark, is_marked, place, window)
