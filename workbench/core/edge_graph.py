@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from workbench.core.arrays import Floats, Integers
+from workbench.core.refine.edge_table import edges_of_faces, edges_of_tetrahedra
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,11 +29,8 @@ class EdgeGraph:
     @cached_property
     def edges(self) -> Integers:
         """(e, 2) int64, each once, the smaller vertex first"""
-        count = len(self.vertices)
-        pairs = np.concatenate([self.simplices[:, pair] for pair in map(list, combinations(range(self.simplices.shape[1]), 2))])
-        low, high = pairs.min(axis=1), pairs.max(axis=1)
-        keys = np.unique(low * count + high)
-        return np.stack([keys // count, keys % count], axis=1)
+        table = edges_of_tetrahedra if self.simplices.shape[1] == 4 else edges_of_faces
+        return table(self.simplices, len(self.vertices)).ends
 
     @cached_property
     def lengths(self) -> Floats:
