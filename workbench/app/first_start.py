@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -39,8 +40,11 @@ def why_not_own_start(loaded: Loaded, session: Session) -> str:
 
 def _turns(loaded: Loaded, session: Session) -> tuple[int, int] | None:
     """How many triangles the file's own map does not leave face up, and how many not face down; None where it has none."""
-    if loaded.kind != "parameterize" or is_sample(session.source):
-        return None
+    return None if loaded.kind != "parameterize" or is_sample(session.source) else _counted(loaded)
+
+
+@lru_cache(maxsize=1)  # asked for what to say, and for where to begin
+def _counted(loaded: Loaded) -> tuple[int, int] | None:
     positions = texture_at_vertices(loaded.mesh)
     if positions is None:
         return None
