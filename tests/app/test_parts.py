@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import leaked_widgets
 from workbench.app.anchor_set import AnchorSet
+from workbench.app.background import Background, silence_all
 from workbench.app.commands import boundary_vertices
 from workbench.app.docks.convergence_dock import MOST_BINS, thinned
 from workbench.app.error_bar import ErrorBar
@@ -47,6 +48,24 @@ def test_the_rate_forgets() -> None:
         meter.take(3, at=tenth / 10)
     assert meter.rate(at=0.9) == pytest.approx(30)
     assert meter.rate(at=5.0) == 0
+
+
+def test_a_part_that_goes_hears_nothing_more_of_its_works(qtbot: QtBot) -> None:
+    window = QWidget()
+    qtbot.addWidget(window)
+    part = QObject(window)
+    heard: list[object] = []
+    works = [Background(lambda: "done", part), Background(lambda: 1 / 0, part)]
+    other = Background(lambda: "done")
+    for work in (*works, other):
+        work.finished.connect(heard.append)
+        work.failed.connect(heard.append)
+        work.start()
+        work.wait()  # what it reports is on its way now, in the queue of this thread
+    silence_all(window)
+    qtbot.waitUntil(lambda: heard == ["done"])
+    qtbot.wait(20)
+    assert heard == ["done"]
 
 
 def test_anchor_sets_are_values() -> None:

@@ -19,6 +19,7 @@ class Background(QObject):
     def __init__(self, work: Callable[[], Any], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._work = work
+        self._is_silent = False
         self._arrived.connect(self._report, Qt.ConnectionType.QueuedConnection)
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -28,6 +29,11 @@ class Background(QObject):
     def wait(self, seconds: float = 10.0) -> None:
         if self._thread.is_alive():
             self._thread.join(seconds)
+
+    def silence(self) -> None:
+        """Let the thread end, and report nothing any more, not even what is on its way: what would show it is going."""
+        self._is_silent = True  # a queued signal comes even where it was disconnected meanwhile
+        self.wait()
 
     def _run(self) -> None:
         result: Any = None
@@ -42,6 +48,8 @@ class Background(QObject):
             pass  # the window was closed meanwhile
 
     def _report(self, result: Any, error: Exception | None) -> None:
+        if self._is_silent:
+            return
         if error is None:
             self.finished.emit(result)
         else:
@@ -76,3 +84,9 @@ class Backgrounds(QObject):
         """Let the threads end before the window does."""
         for work in self._works:
             work.wait()
+
+
+def silence_all(owner: QObject) -> None:
+    """End the works of a part of the window, and of all its parts, before it is destroyed."""
+    for work in owner.findChildren(Background):
+        work.silence()

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QVBoxLayout, QWi
 from workbench.app.actions import make_actions, set_icons
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.anchors.anchor_files import AnchorFiles
+from workbench.app.background import silence_all
 from workbench.app.carrying.carried_view import CarriedView
 from workbench.app.colouring import Colouring
 from workbench.app.commands import Commands
@@ -381,6 +382,7 @@ class MainWindow(QMainWindow):
             self.anchor_files.wait()
             self.carried.wait()
             self.time_line.wait()
+            silence_all(self)
             self.theme_switch.changed.disconnect(self._apply_theme)
             for view in (self.source.view, self.target.view, *(dock.view for dock in self.maps)):
                 view.close_view()

@@ -41,10 +41,6 @@ class RaceSaver(QObject):
         """Write table.csv and history.csv, then curves.svg, .pdf and .png, into a folder."""
         self._model.bridge.post(SaveTables(folder, self._model.mesh.name or "mesh"))
 
-    def wait(self) -> None:
-        if self._work is not None:
-            self._work.wait()
-
     def _tables_saved(self, report: TablesSaved) -> None:
         errors = relative_errors(self._model.records, self._model.mesh, self._model.total_measure)
         curves = [_curve(record, error.copy()) for record, error in zip(self._model.records, errors, strict=True)]

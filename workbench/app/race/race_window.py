@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QSplitter, QToolBar, QVBoxLayout, QWidget
 
+from workbench.app.background import silence_all
 from workbench.app.colour_legend import ColourLegend
 from workbench.app.engine_bridge import WorkerMaker
 from workbench.app.error_bar import ErrorBar
@@ -253,7 +254,7 @@ class RaceWindow(QMainWindow):
             self._is_closed = True
             self.colours.stop()
             self.curves.stop()
-            self.saver.wait()
+            silence_all(self)
             self.model.close()
             self.grid.close_views()
             self.closed.emit()
