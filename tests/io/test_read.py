@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import os
 import re
+import resource
+import sys
+import threading
+import warnings
 from pathlib import Path
 
 import meshio
@@ -12,7 +16,9 @@ import pytest
 import scipy.io
 
 from workbench.core.errors import MeshError
+from workbench.io import cases
 from workbench.io.foreign import silenced
+from workbench.io.memory_limit import limited_memory
 from workbench.io.read import READABLE, read_mesh
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0], [1, 1, 1]])
@@ -238,6 +244,39 @@ def test_cases(tmp_path: Path) -> None:
 def test_broken_cases(tmp_path: Path, arrays: dict[str, object], what: str) -> None:
     with pytest.raises(MeshError, match=what):
         read_mesh(save_case(tmp_path / "case.npz", **arrays))
+
+
+def test_a_small_file_does_not_fill_the_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    bomb = tmp_path / "bomb.npz"
+    np.savez_compressed(bomb, V=POINTS, S=TETRAHEDRA, other=np.zeros(1_000_000))
+    assert read_mesh(bomb).mesh.vertex_count == len(POINTS)  # a few megabytes do no harm
+    monkeypatch.setattr(cases, "SMALL_UNPACKED", 2**20)
+    with pytest.raises(MeshError, match="unpack"):
+        read_mesh(bomb)
+
+
+def test_two_readers_at_once_leave_console_and_memory_as_they_were() -> None:
+    first_in, second_in, first_out = threading.Event(), threading.Event(), threading.Event()
+
+    def first() -> None:
+        with silenced(), limited_memory(0):
+            first_in.set()
+            second_in.wait(0.2)
+        first_out.set()
+
+    def second() -> None:
+        first_in.wait(10.0)
+        with silenced(), limited_memory(0):
+            second_in.set()
+            first_out.wait(0.2)
+
+    before = sys.stdout, sys.stderr, warnings.filters[:], resource.getrlimit(resource.RLIMIT_AS)
+    threads = [threading.Thread(target=deed) for deed in (first, second)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert (sys.stdout, sys.stderr, warnings.filters, resource.getrlimit(resource.RLIMIT_AS)) == before
 
 
 def test_matlab_counts_from_one(tmp_path: Path) -> None:

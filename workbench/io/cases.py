@@ -14,9 +14,12 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
 from workbench.io.foreign import silenced
+from workbench.io.memory_limit import EXPANSION, limited_memory
 from workbench.io.mesh_file import check_range, finite_rows, mesh_of_file, whole_numbers
 
 LARGEST_UNPACKED = 2**32
+SMALL_UNPACKED = 2**28
+"""Bytes that an archive may unpack to however small it is; a larger one in proportion to its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +81,11 @@ def npz_arrays(path: Path, data: bytes) -> dict[str, Any]:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
-        if unpacked > LARGEST_UNPACKED:
-            raise MeshError(f"{path}: unpacked it would take {unpacked / 2**30:.0f} GiB, too much for one mesh.")
+        if unpacked > min(LARGEST_UNPACKED, max(SMALL_UNPACKED, EXPANSION * len(data))):
+            raise MeshError(
+                f"{path}: its {len(data) / 2**20:.3g} MiB would unpack to {unpacked / 2**30:.3g} GiB, too much for one mesh; "
+                f"it is damaged, or was made to fill the memory."
+            )
         with np.load(io.BytesIO(data), allow_pickle=False) as content:
             return {name: content[name] for name in content.files}
     except MeshError:
@@ -92,7 +98,7 @@ def mat_arrays(path: Path, data: bytes) -> dict[str, Any]:
     """The plain arrays of a MATLAB file (version 7 or older) by name."""
     if b"MATLAB 7.3" in data[:128]:
         raise MeshError(f"{path}: it is a MATLAB 7.3 file (HDF5); save it again with the option -v7.")
-    with silenced():
+    with silenced(), limited_memory(len(data)):
         try:
             from scipy.io import loadmat
 

@@ -11,6 +11,7 @@ import importlib
 import io
 import re
 import tempfile
+import threading
 import warnings
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,8 @@ NOT_READ = {
 """Marks of what meshio does not know, and what to do."""
 ENTITIES = re.compile(rb"\$Entities\b.*?\$EndEntities\s*", re.DOTALL)
 """The part of a Gmsh file that says which groups its parts are in."""
+_one_at_a_time = threading.RLock()
+"""The console is of the whole process: of two threads that silence it, the later would put back the silence of the other."""
 
 
 def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[Mesh, tuple[str, ...], Floats | None]:
@@ -121,8 +124,8 @@ def _check_ply_counts(path: Path, data: bytes) -> None:
 
 @contextlib.contextmanager
 def silenced() -> Any:
-    """Nothing that runs inside reaches the console, warnings included."""
-    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+    """Nothing that runs inside reaches the console, warnings included. One thread at a time; others wait."""
+    with _one_at_a_time, warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
         warnings.simplefilter("ignore")
         with contextlib.redirect_stderr(io.StringIO()):
             yield
