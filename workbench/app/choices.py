@@ -14,6 +14,8 @@ SOLVER_FIELDS = {"solver", "solver_parameters"}
 START_FIELDS = {"initializer", "initializer_parameters", "start_file", "match_area"}
 REFUSABLE = {"SetProblem": PROBLEM_FIELDS, "SetSolver": SOLVER_FIELDS, "Reset": START_FIELDS}
 """Commands that the engine may refuse -> fields of the session that then go back to what they were."""
+CARRIED_ALONG = {"SetSolver": {"initializer"}}
+"""Fields that a choice of the user's writes down beside its own: the start in force is held where the solver changes."""
 
 
 class EarlierChoices:
@@ -25,7 +27,8 @@ class EarlierChoices:
     def keep(self, session: Session, changes: Mapping[str, Any]) -> None:
         for command, fields in REFUSABLE.items():
             if fields & set(changes):
-                self._before[command] = {name: getattr(session, name) for name in fields}
+                names = fields | CARRIED_ALONG.get(command, set())
+                self._before[command] = {name: getattr(session, name) for name in names}
 
     def keep_all(self, session: Session) -> None:
         self._before["TakeUp"] = dict(vars(session))

@@ -12,7 +12,7 @@ from workbench.app.choices import PROBLEM_FIELDS, SOLVER_FIELDS, START_FIELDS, E
 from workbench.app.document_state import DocumentState
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_anchors import SAMPLE, first_anchors
-from workbench.app.first_start import with_own_start
+from workbench.app.first_start import with_own_start, with_start_held
 from workbench.app.orders import Orders
 from workbench.app.quantities import Quantity
 from workbench.app.sessions.restoring import (
@@ -265,7 +265,7 @@ class Document(DocumentState):
 
     def choose(self, **changes: Any) -> None:
         """Replace fields of the session and tell the engine what follows from it."""
-        session = replace(self.session, **changes)
+        session = with_start_held(self.session, replace(self.session, **changes), self.loaded)
         if session == self.session:
             return
         names = set(changes)

@@ -1,4 +1,4 @@
-"""The start of a surface whose file holds a map of it already: an artist's texture coordinates are seen as they are."""
+"""Which start is in force; that of a file which holds a map already: an artist's texture coordinates are seen as they are."""
 
 from __future__ import annotations
 
@@ -9,9 +9,27 @@ import numpy as np
 
 from workbench.app.first_anchors import is_sample
 from workbench.core.jacobians import build_elements, determinants
+from workbench.core.registry import registry
 from workbench.core.seams import texture_at_vertices
 from workbench.engine.messages import Loaded
+from workbench.engine.starts import default_initializer
 from workbench.session.session import Session
+
+
+def start_in_force(session: Session, loaded: Loaded | None) -> str:
+    """Id of the start: the one that was chosen, that of a case, or the one that the solver wishes for."""
+    if session.initializer or (loaded is not None and loaded.has_start):
+        return session.initializer or "file"
+    solver = registry().solvers.get(session.solver)
+    return default_initializer(loaded.kind if loaded is not None else "plane", solver.initializer if solver is not None else "")
+
+
+def with_start_held(before: Session, after: Session, loaded: Loaded | None) -> Session:
+    """The choices with the start that was in force, where another solver would wish for another: none needs its own."""
+    if after.solver == before.solver:
+        return after
+    held, wished = start_in_force(before, loaded), start_in_force(after, loaded)
+    return after if after.initializer != before.initializer or held == wished else replace(after, initializer=held)
 
 
 def has_own_map(session: Session) -> bool:

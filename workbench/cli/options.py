@@ -90,7 +90,7 @@ def add_problem_options(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--distortion", default="symmetric-dirichlet", metavar="ID|FORMULA", help="default: symmetric-dirichlet")
     add_set_option(parser, "the distortion, the solver or the initializer, the first that has it")
-    defaults = "rest; surfaces: tutte, or auto with --solver fast"
+    defaults = "rest; surfaces: tutte, or auto with --solver fast; name the mesh itself for its own UVs"
     add("--init", metavar="ID|FILE", help=f"start: an initializer, or a map in a file (default: {defaults})")
     add("--anchors", metavar="FILE.csv", help="anchors: vertex,x,y[,z][,weight], vertices from 0")
     add("--equations", metavar="FILE.txt", help="linear constraints, a line each: x[12] - x[30] = 0")

@@ -223,7 +223,7 @@ class Loaded(Report):
     `cut_edges` (k, 2) are the edges (vertices of `mesh`) that a fix cut open. `anchor_vertices` (k,) are those that
     the file or the sample comes with, `anchor_targets` (k, d) their targets; None: where the start has them.
     `neighbours` (m, 4) are the tetrahedra beyond each face (see `neighbouring_simplices`), so that whoever draws a volume
-    need not sort its faces; None for triangles.
+    need not sort its faces; None for triangles. With `has_start` the file is a case with a start of its own.
     """
 
     generation: int
@@ -236,6 +236,7 @@ class Loaded(Report):
     anchor_vertices: Integers | None = None
     anchor_targets: Floats | None = None
     neighbours: Integers | None = None
+    has_start: bool = False
 
 
 @dataclass(frozen=True, eq=False)

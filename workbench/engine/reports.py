@@ -32,6 +32,7 @@ def loaded_report(command: Load, opened: OpenedSource) -> Loaded:
         anchor_vertices=anchors,
         anchor_targets=opened.anchor_targets,
         neighbours=neighbouring_simplices(facet_table(opened.mesh.simplices)) if opened.kind == "volume" else None,
+        has_start=opened.start is not None,
     )
 
 

@@ -24,12 +24,11 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.document import Document
-from workbench.app.first_start import has_own_map
+from workbench.app.first_start import has_own_map, start_in_force
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
 from workbench.core.registry import Registry, registry
 from workbench.engine.messages import Refused
-from workbench.engine.starts import default_initializer
 from workbench.session.session import Session
 
 KIND_LABELS = {"auto": "Automatic", "plane": "Plane to plane", "parameterize": "Surface to plane", "volume": "Solid to space"}
@@ -169,9 +168,7 @@ class ControlPanel(QScrollArea):
             return
         self.distortion.show_choice(session.distortion, session.distortion_parameters)
         self.solver.show_choice(session.solver, session.solver_parameters)
-        solver = self._registry.solvers.get(session.solver)
-        wished = solver.initializer if solver is not None else ""
-        start = session.initializer or default_initializer(found or "plane", wished)
+        start = start_in_force(session, self._document.loaded)
         self.start.show_choice(start, session.initializer_parameters)
         self._name_start_file(session, start == "file")
 
@@ -184,14 +181,24 @@ class ControlPanel(QScrollArea):
     def _name_start_file(self, session: Session, is_wanted: bool) -> None:
         """The button for the file of the start says which one it is."""
         self.file_button.setVisible(is_wanted)
-        file = session.start_file
+        file = session.start_file if session.initializer else ""
         words = "The UVs of the mesh" if has_own_map(session) else Path(file).name or "Choose the file"
+        if not session.initializer and self._has_case:
+            words = "The start of the case"
         room = self.file_button.fontMetrics().averageCharWidth() * NAME_CHARACTERS
         self.file_button.setText(self.file_button.fontMetrics().elidedText(words, Qt.TextElideMode.ElideMiddle, room) + "…")
         self.file_button.setToolTip(f"The map to start from{f': {file}' if file else ''}; a click chooses another file")
 
+    @property
+    def _has_case(self) -> bool:
+        """Whether the mesh came as a case, with a start of its own."""
+        loaded = self._document.loaded
+        return loaded is not None and loaded.has_start
+
     def _choose_start(self, id: str, values: dict[str, Any]) -> None:
-        if id == "file" and not self._document.session.start_file:
+        if id == "file" and self._has_case:
+            id = ""
+        elif id == "file" and not self._document.session.start_file:
             # nothing is sent before the file is known; the list shows the old choice again if it is not
             self._choose_file()
             return
