@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from tests.app.fake_engine import bumpy_mesh, grid_mesh
 from workbench.app.colour_range import ColourRange
 from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.theme import LIGHT
 from workbench.app.views import mesh_view
+from workbench.app.views.actors import actor_of, mapper_of
 from workbench.app.views.canvas import CardCanvas, MemoryCanvas
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry
@@ -23,6 +26,7 @@ from workbench.app.views.textures import Texture
 from workbench.core.mesh import Mesh
 
 CANVASES = {"memory": MemoryCanvas, "card": CardCanvas}
+PICTURE = Texture("picture", picture=np.random.default_rng(3).integers(0, 255, (7, 10, 3), np.uint8).repeat(9, 0).repeat(9, 1))
 
 
 @pytest.fixture
@@ -121,6 +125,41 @@ def test_a_flat_picture_is_that_of_opengl(make_view, zoom: float) -> None:
     assert drawn[0].std() > 10, "there is something in the picture"
     differs = (np.abs(drawn[0] - drawn[1]) > 1).any(axis=2)
     assert differs.mean() < 0.01  # where a centre lies on an edge either triangle may have it
+
+
+@pytest.mark.parametrize("texture", [Texture("circles"), Texture("checkerboard", size=0.7, degrees=30.0), PICTURE], ids=str)
+def test_a_texture_is_laid_as_opengl_does(make_view, texture: Texture) -> None:
+    compile_pictures()
+    mesh = grid_mesh()
+    view = make_view("memory", mesh)
+    view.geometry_shown.write(mesh.vertices * [1.0, 0.9] + 0.03 * np.sin(7.0 * mesh.vertices[:, ::-1]))
+    rest = view.geometry_shown.points.copy()
+    view.surface.show_pattern(replace(texture, points=lambda: rest[::-1]))  # not where the triangles are
+    drawn = []
+    for paints in (False, True):
+        if paints:
+            view.paint_flat_maps()
+            assert view.canvas.painter(240, 180) is not None
+        view.refresh()
+        drawn.append(pixels(view))
+    assert drawn[0].std() > 10, "there is something in the picture"
+    differs = (np.abs(drawn[0] - drawn[1]) > 4).any(axis=2)  # drivers round places in a tile
+    assert differs.mean() < 0.01
+
+
+def test_large_flat_maps_are_painted_unasked_but_not_what_lies_over_them(make_view, monkeypatch: pytest.MonkeyPatch) -> None:
+    compile_pictures()
+    view = make_view("memory", grid_mesh())
+    assert view.canvas.painter(240, 180) is None
+    monkeypatch.setattr(view, "_painted_from", view.surface.geometry.simplices.shape[0])
+    assert view.canvas.painter(240, 180) is not None
+    figure = actor_of(mapper_of(vtkPolyData()))
+    view.add_actor(figure)
+    assert view.canvas.painter(240, 180) is None
+    figure.SetVisibility(False)
+    assert view.canvas.painter(240, 180) is not None
+    view.surface.set_opacity(0.0)
+    assert view.canvas.painter(240, 180) is None
 
 
 def test_what_is_more_than_flat_colours_is_left_to_opengl(make_view) -> None:

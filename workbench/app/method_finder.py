@@ -18,7 +18,7 @@ PAUSE = 1500
 
 
 class MethodFinder(QObject):
-    """`found` carries the registry; afterwards formulas are made ready for tetrahedra: a solid then opens without a pause."""
+    """`found` carries the registry; afterwards the kernel of pictures and formulas for tetrahedra are made ready."""
 
     found = Signal(object)
     failed = Signal(object)
@@ -48,7 +48,7 @@ class MethodFinder(QObject):
                 work.wait()
 
     def _take(self, registry: Any) -> None:
-        self._preparation = Background(lambda: prepare_formulas(registry), self)
+        self._preparation = Background(lambda: prepare_for_larger(registry), self)
         self._preparation.failed.connect(self.failed)
         QTimer.singleShot(PAUSE, self, self._preparation.start)
         self.found.emit(registry)
@@ -62,6 +62,14 @@ def find_methods() -> Any:
     with suppress(WorkbenchError, KeyError):  # the first one that is shown: its kernel is loaded here
         found.distortions[Session().distortion].compiled(2)
     return found
+
+
+def prepare_for_larger(registry: Any) -> None:
+    """What would hold up the window once when a larger mesh or a solid is opened."""
+    from workbench.app.views.flat_picture import compile_pictures
+
+    compile_pictures()
+    prepare_formulas(registry)
 
 
 def prepare_formulas(registry: Any) -> None:

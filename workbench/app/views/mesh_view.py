@@ -30,6 +30,8 @@ LEAST_SHOWN = 0.02
 """Size of what is shown at least where a place is looked at, of the size of the mesh."""
 LEAST_SEEN = 0.1
 """Part of the box round a map below which a view counts as empty."""
+PAINTED_FROM = 12_000
+"""Triangles of a flat map from which OpenGL without a graphics card would hold up the window."""
 
 
 class MeshView(QWidget):
@@ -55,6 +57,8 @@ class MeshView(QWidget):
         self.canvas.drawn.connect(self.drawn)
         self._renderer: Any = self.canvas.renderer
         self._picture = FlatPicture()
+        self._painted_from = PAINTED_FROM
+        self.canvas.painter = self._flat_pixels
         self.overlay = Overlay(self)
         self.setMinimumSize(120, 100)
         self.set_theme(theme)
@@ -134,17 +138,28 @@ class MeshView(QWidget):
         self.points_changed()
 
     def paint_flat_maps(self) -> None:
-        """Draw flat maps without OpenGL where no graphics card does it: for windows of many views that change often."""
-        self.canvas.painter = self._flat_pixels
+        """Draw small flat maps, too, without OpenGL where no graphics card does it: for windows of many views."""
+        self._painted_from = 0
 
     def _flat_pixels(self, width: int, height: int) -> NDArray[np.uint32] | None:
-        colours = self.surface.flat_colours() if self.surface is not None and FlatPicture.is_ready else None
-        if colours is None or self.geometry_shown is None:
+        surface, geometry = self.surface, self.geometry_shown
+        if surface is None or geometry is None or not FlatPicture.is_ready or len(geometry.triangles) < self._painted_from:
             return None
-        pixels = self.camera.project(self.geometry_shown.points, (width, height))[0]
+        colours = surface.flat_colours()
+        texture = surface.flat_texture() if colours is None else None
+        if (colours is None and texture is None) or self._draws_more(surface):
+            return None
+        pixels = self.camera.project(geometry.points, (width, height))[0]
         pixels[:, 1] = height - pixels[:, 1]
-        background = packed(QColor(self.theme.view).getRgbF()[:3])  # type: ignore[arg-type]
-        return self._picture.paint(pixels, self.geometry_shown.triangles, colours, background, width, height)
+        page = packed(QColor(self.theme.view).getRgbF()[:3]), width, height  # type: ignore[arg-type]
+        if colours is not None:
+            return self._picture.paint(pixels, geometry.triangles, colours, *page)
+        assert texture is not None
+        return self._picture.paint_texture(pixels, geometry.triangles, *texture, *page)
+
+    def _draws_more(self, surface: Surface) -> bool:
+        """Whether there is anything to see but the surface: glyphs, a carried figure."""
+        return any(prop.GetVisibility() for prop in self._renderer.GetViewProps() if prop not in surface.actors)
 
     def refresh(self) -> None:
         """Draw at the next turn of the event loop, where the view is to be seen at all."""

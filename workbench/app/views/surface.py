@@ -44,6 +44,7 @@ class Surface:
         self._latest: tuple[NDArray[Any] | None, Booleans] | None = None
         self._texture_points: NDArray[np.float32] = np.empty((0, 2), np.float32)
         self._texture_data: Any = None
+        self._tile: NDArray[np.uint8] = np.empty((0, 0, 3), np.uint8)
         self._texture: Texture | None = None
         self._mapper = mapper_of(self._polydata)
         self._mapper.SetScalarModeToUseCellData()
@@ -154,7 +155,9 @@ class Surface:
             self._solid_texture.show(texture, len(self.geometry.points), self._theme.is_dark)
         else:
             self._make_texture_points()
-            self._actor.SetTexture(repeating(texture.tile(self._theme.is_dark), draws_with_card()))
+            tile = texture.tile(self._theme.is_dark)
+            self._tile = np.ascontiguousarray(tile[::-1])
+            self._actor.SetTexture(repeating(tile, draws_with_card()))
         self._mapper.SetLookupTable(single_colour((1.0, 1.0, 1.0)))
         self._values[:] = np.where(np.isnan(self._values), np.nan, 0.0)
         self._scalars.Modified()
@@ -204,12 +207,22 @@ class Surface:
 
     def flat_colours(self) -> NDArray[np.uint32] | None:
         """Colour of each triangle (m,), packed; None where more is shown than flat triangles in a colour each."""
-        is_plain = self.geometry.is_flat and not self.has_edges and not self.has_texture and not self._is_wireframe
-        if not is_plain or any(actor.GetVisibility() for actor in self.actors[1:]):
+        if self.has_texture or not self._is_bare:
             return None
         colours = self._mapper.GetLookupTable().MapScalars(self._scalars, MAP_SCALARS, 0)
         packed: NDArray[np.uint32] = vtk_to_numpy(colours).view(np.uint32)[:, 0]
         return packed
+
+    def flat_texture(self) -> tuple[NDArray[np.float32], NDArray[np.uint8]] | None:
+        """Where the texture lies (n, 2), and its tile, rows from below; None where more is shown than it on flat triangles."""
+        return (self._texture_points, self._tile) if self.has_texture and self._is_bare else None
+
+    @property
+    def _is_bare(self) -> bool:
+        """Whether flat triangles are all there is: no edges, no lines, nothing inverted or marked, nothing seen through."""
+        is_filled = self.geometry.is_flat and not self.has_edges and not self._is_wireframe
+        is_opaque = self._actor.GetProperty().GetOpacity() == 1.0
+        return is_filled and is_opaque and not any(actor.GetVisibility() for actor in self.actors[1:])
 
     # ------------------------------------------------------------------------------------------ lines
 
