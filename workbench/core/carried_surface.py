@@ -58,7 +58,8 @@ class CarriedSurface:
         """The surface without the triangles that have no area."""
         if self.has_area.all():
             return self.surface
-        return replace(self.surface, simplices=self.surface.simplices[self.has_area], texture=None, polygons=None)
+        simplices = self.surface.simplices[self.has_area]
+        return replace(self.surface, simplices=simplices, texture=None, polygons=None, attributes=None)
 
     @cached_property
     def elements(self) -> Elements:

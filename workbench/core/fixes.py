@@ -12,7 +12,7 @@ from workbench.core.cutting import disc_cut
 from workbench.core.errors import WorkbenchError
 from workbench.core.facets import corner_classes, facet_table, split_vertices
 from workbench.core.load_report import count_of
-from workbench.core.mesh import Mesh, TextureCoordinates
+from workbench.core.mesh import Mesh
 from workbench.core.orientation import orientation_sheets, simplices_to_flip
 from workbench.core.seams import seam_pairs
 
@@ -148,14 +148,24 @@ def _flipped(mesh: Mesh, flip: Booleans) -> Mesh:
         turned[flip, -2], turned[flip, -1] = rows[flip, -1], rows[flip, -2]
         return turned
 
-    texture = mesh.texture and TextureCoordinates(mesh.texture.coordinates, exchanged(mesh.texture.corners))
-    return replace(mesh, simplices=exchanged(mesh.simplices), texture=texture)
+    texture, given = mesh.texture, mesh.attributes
+    return replace(
+        mesh,
+        simplices=exchanged(mesh.simplices),
+        texture=texture and replace(texture, corners=exchanged(texture.corners)),
+        attributes=given and replace(given, normal_corners=exchanged(given.normal_corners)),
+    )
 
 
 def _with_simplices(mesh: Mesh, kept: Integers) -> Mesh:
-    texture = mesh.texture and TextureCoordinates(mesh.texture.coordinates, mesh.texture.corners[kept])
-    polygons = None if mesh.polygons is None else mesh.polygons[kept]
-    return replace(mesh, simplices=mesh.simplices[kept], texture=texture, polygons=polygons)
+    texture, given = mesh.texture, mesh.attributes
+    return replace(
+        mesh,
+        simplices=mesh.simplices[kept],
+        texture=texture and replace(texture, corners=texture.corners[kept]),
+        polygons=None if mesh.polygons is None else mesh.polygons[kept],
+        attributes=given and replace(given, part=given.part[kept], normal_corners=given.normal_corners[kept]),
+    )
 
 
 def _without_unreferenced(mesh: Mesh) -> Mesh:
@@ -174,6 +184,4 @@ def _parted(mesh: Mesh, parted: Booleans) -> Mesh:
     simplices, copied_from = split_vertices(mesh.simplices, mesh.vertex_count, classes)
     if len(copied_from) == mesh.vertex_count:
         return mesh
-    return replace(
-        mesh, vertices=mesh.vertices[copied_from], simplices=simplices, vertex_origin=_origin(mesh)[copied_from]
-    )
+    return replace(mesh, vertices=mesh.vertices[copied_from], simplices=simplices, vertex_origin=_origin(mesh)[copied_from])

@@ -31,6 +31,33 @@ class TextureCoordinates:
 
 
 @dataclass(frozen=True, eq=False)
+class FaceAttributes:
+    """What a file says of its faces beside where their corners are, so that it can be written again.
+
+    Parameters
+    ----------
+    parts : tuple of (object, group, material, smoothing)     as the file names them, "" where it does not
+    part : (m,) int64                row of `parts` of each triangle
+    normals : (k, 3) float64         as the file has them
+    normal_corners : (m, 3) int64    row of `normals` of each corner, -1 where it has none
+    libraries : tuple of str         files of the materials
+    folder : str                     of the file, from where `libraries` are named
+    """
+
+    parts: tuple[tuple[str, str, str, str], ...]
+    part: Integers = field(repr=False)
+    normals: Floats = field(repr=False)
+    normal_corners: Integers = field(repr=False)
+    libraries: tuple[str, ...] = ()
+    folder: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "normals", frozen(self.normals))
+        for name in ("part", "normal_corners"):
+            object.__setattr__(self, name, frozen(getattr(self, name), np.int64))
+
+
+@dataclass(frozen=True, eq=False)
 class Mesh:
     """Vertices and simplices of one dimension; frozen, derived tables cached.
 
@@ -42,6 +69,7 @@ class Mesh:
     texture : TextureCoordinates    where the file has them for every corner
     polygons : (m,) int64           face of the file that each triangle was fanned from, where faces had more corners
     vertex_origin : (n,) int64      vertex of the file that each vertex comes from, where a fix changed them
+    attributes : FaceAttributes     where the file has names, materials or normals of its faces
 
     Raises `MeshError` for shapes that do not fit, indices out of range and coordinates that are not finite.
     """
@@ -52,6 +80,7 @@ class Mesh:
     texture: TextureCoordinates | None = field(default=None, repr=False)
     polygons: Integers | None = field(default=None, repr=False)
     vertex_origin: Integers | None = field(default=None, repr=False)
+    attributes: FaceAttributes | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vertices", frozen(self.vertices))

@@ -9,7 +9,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.errors import MeshError
-from workbench.core.mesh import Mesh, TextureCoordinates
+from workbench.core.mesh import FaceAttributes, Mesh, TextureCoordinates
 
 LARGEST_COORDINATE = 1e70
 """Beyond this, products of four lengths leave the range of double precision."""
@@ -52,11 +52,12 @@ def mesh_of_file(
     *,
     texture: TextureCoordinates | None = None,
     polygons: Integers | None = None,
+    attributes: FaceAttributes | None = None,
 ) -> Mesh:
     """A mesh with the name of its file; `MeshError` names the file for whatever does not fit."""
     vertices = np.asarray(vertices, dtype=np.float64)
     try:
-        mesh = Mesh(vertices, simplices, path.name, texture, polygons)
+        mesh = Mesh(vertices, simplices, path.name, texture, polygons, attributes=attributes)
     except MeshError as error:
         raise MeshError(f"{path}: {error.sentence}") from None
     check_range(path, vertices)

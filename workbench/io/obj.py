@@ -1,4 +1,4 @@
-"""Wavefront OBJ, read as it is found in the wild: seams, polygons, negative indices, any encoding."""
+"""Wavefront OBJ, read as it is found in the wild: seams, polygons, negative indices, parts, any encoding."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh, TextureCoordinates
 from workbench.io.mesh_file import mesh_of_file
+from workbench.io.obj_attributes import HEADS, NAMING, NamedParts, attributes_of
 from workbench.io.polygons import fan
 from workbench.io.text import decoded
 
@@ -53,19 +54,29 @@ class _Lines:
 
 @dataclass
 class _Statements:
-    """The lines of an OBJ file that matter; `counts_before` are the vertices and texture coordinates before a face."""
+    """The lines of an OBJ file that matter.
+
+    `before` has four numbers a face: the vertices, texture coordinates and normals before it, and the part that it belongs to.
+    """
 
     vertices: _Lines = field(default_factory=lambda: _Lines("v"))
     textures: _Lines = field(default_factory=lambda: _Lines("vt"))
+    normals: _Lines = field(default_factory=lambda: _Lines("vn"))
     faces: _Lines = field(default_factory=lambda: _Lines("f"))
-    counts_before: list[int] = field(default_factory=list)
+    named: NamedParts = field(default_factory=NamedParts)
+    before: list[int] = field(default_factory=list)
+
+    @property
+    def before_faces(self) -> Integers:
+        return np.array(self.before, dtype=np.int64).reshape(-1, 4)
 
 
 def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tuple[str, ...]]:
     """The mesh in the bytes of an OBJ file, and notes.
 
     Polygons are fanned from their first corner; with `tets`, faces of four corners are tetrahedra and others are left
-    out. Texture coordinates are kept where every corner has some. Raises `MeshError` with the line that is wrong.
+    out. Texture coordinates are kept where every corner has some; objects, groups, materials and normals where there are
+    any. Raises `MeshError` with the line that is wrong.
     """
     found = _statements(decoded(path, data))
     if not found.vertices.lines:
@@ -77,7 +88,7 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
     if sizes.min() < 3:
         line = found.faces.numbers[int(sizes.argmin())]
         raise MeshError(f"{path}, line {line}: a face needs three corners or more; the file is damaged or cut short.")
-    corners, texture_corners = _corner_tables(path, found, words, sizes)
+    corners, texture_corners, normal_corners = _corner_tables(path, found, words, sizes)
     if tets:
         return _tetrahedra(path, vertices, corners, sizes)
 
@@ -85,7 +96,10 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
     triangles_of, polygons = fan(sizes)
     texture = _texture(path, found, texture_corners, triangles_of, notes)
     fanned = polygons if sizes.max() > 3 else None
-    mesh = mesh_of_file(path, vertices, corners[triangles_of], texture=texture, polygons=fanned)
+    attributes = attributes_of(
+        path, found.named, found.before_faces[:, 3], _normal_table(found), normal_corners, triangles_of, polygons
+    )
+    mesh = mesh_of_file(path, vertices, corners[triangles_of], texture=texture, polygons=fanned, attributes=attributes)
     if fanned is not None:
         notes.append(f"{int((sizes > 3).sum())} polygons were fanned into triangles.")
     return mesh, tuple(notes)
@@ -93,24 +107,27 @@ def read_obj(path: Path, data: bytes, *, tets: bool = False) -> tuple[Mesh, tupl
 
 def _statements(text: str) -> _Statements:
     found = _Statements()
-    vertices, textures, faces = found.vertices, found.textures, found.faces
+    vertices, textures, normals, faces, named = found.vertices, found.textures, found.normals, found.faces, found.named
     lines = text.split("\n")
     if "\\\n" in text:
         lines = _joined(lines)
-    for number, line in enumerate(lines, start=1):
-        if "#" in line:
-            line = line.partition("#")[0]
+    for number, whole in enumerate(lines, start=1):
+        line = whole.partition("#")[0] if "#" in whole else whole
         head = line[:2]
-        if head not in ("v ", "f ", "vt"):
+        if head not in ("v ", "f ", "vt", "vn"):
             line = line.strip()
             head = (line.replace("\t", " ") + " ")[:2]
         if head == "v ":
             vertices.add(line, number)
         elif head == "f ":
             faces.add(line, number)
-            found.counts_before += (len(vertices.lines), len(textures.lines))
+            found.before += (len(vertices.lines), len(textures.lines), len(normals.lines), named.current)
         elif head == "vt" and line.split(None, 1)[0] == "vt":
             textures.add(line, number)
+        elif head == "vn" and line.split(None, 1)[0] == "vn":
+            normals.add(line, number)
+        elif head in HEADS and line.split(None, 1)[0] in NAMING:
+            named.take(whole)  # names may hold the sign of comments
     return found
 
 
@@ -156,13 +173,22 @@ def _numbers(path: Path, lines: _Lines, words: list[str], widths: Integers, colu
         lines.blame(path, float, "is not a number", slice(columns))
 
 
-def _corner_tables(path: Path, found: _Statements, words: list[str], sizes: Integers) -> tuple[Integers, Integers]:
-    """Vertex and texture coordinate of each corner of each face, from 0, both (c,) int64; -1 for no texture."""
+def _normal_table(found: _Statements) -> Floats:
+    """(k, 3), without any row where some line is no normal: nothing that is computed needs them."""
     try:
-        vertex, texture = _corner_numbers(words)
+        words, widths = found.normals.words()
+        return np.array(words, dtype=np.float64).reshape(-1, 3) if (widths == 3).all() else np.empty((0, 3))
+    except ValueError:
+        return np.empty((0, 3))
+
+
+def _corner_tables(path: Path, found: _Statements, words: list[str], sizes: Integers) -> tuple[Integers, Integers, Integers]:
+    """Vertex, texture coordinate and normal of each corner of each face, from 0, all (c,) int64; -1 for none."""
+    try:
+        vertex, texture, normal = _corner_numbers(words)
     except (ValueError, OverflowError):
         found.faces.blame(path, lambda word: _corner_numbers([word]), "is not a corner of a face")
-    counts = np.repeat(np.array(found.counts_before, dtype=np.int64).reshape(-1, 2), sizes, axis=0)
+    counts = np.repeat(found.before_faces, sizes, axis=0)
     lines = np.repeat(np.array(found.faces.numbers, dtype=np.int64), sizes)
     vertex = _from_zero(path, vertex, counts[:, 0], len(found.vertices.lines), lines, "vertex", "vertices")
     absent = texture == 0
@@ -171,11 +197,12 @@ def _corner_tables(path: Path, found: _Statements, words: list[str], sizes: Inte
         path, np.where(absent, 1, texture), counts[:, 1], max(known, int(absent.any())), lines,
         "texture coordinate", "texture coordinates",
     )  # fmt: skip
-    return vertex, np.where(absent, -1, texture)
+    normal = np.where(normal > 0, normal - 1, np.where(normal < 0, np.maximum(counts[:, 2] + normal, -1), -1))
+    return vertex, np.where(absent, -1, texture), normal
 
 
-def _corner_numbers(words: list[str]) -> tuple[Integers, Integers]:
-    """Numbers of vertex and texture coordinate of corners `v`, `v/t`, `v//n` or `v/t/n`; 0 for no texture."""
+def _corner_numbers(words: list[str]) -> tuple[Integers, Integers, Integers]:
+    """Numbers of vertex, texture coordinate and normal of corners `v`, `v/t`, `v//n` or `v/t/n`; 0 for none."""
     slashes = words[0].count("/")
     if slashes == 0:
         numbers = np.array(list(map(int, words)), dtype=np.int64) if "/" not in "".join(words) else None
@@ -186,12 +213,12 @@ def _corner_numbers(words: list[str]) -> tuple[Integers, Integers]:
             text += "0"
         numbers = np.array(list(map(int, text.replace("/", " ").split())), dtype=np.int64) if is_even else None
     if numbers is not None and numbers.size == (slashes + 1) * len(words):
-        numbers = numbers.reshape(len(words), slashes + 1)
-        return numbers[:, 0], numbers[:, 1] if slashes else np.zeros(len(words), dtype=np.int64)
-    parts = [word.split("/") for word in words]
-    vertex = np.array([int(part[0]) for part in parts], dtype=np.int64)
-    texture = [int(part[1]) if len(part) > 1 and part[1] else 0 for part in parts]
-    return vertex, np.array(texture, dtype=np.int64)
+        table = np.zeros((len(words), 3), dtype=np.int64)
+        table[:, : slashes + 1] = numbers.reshape(len(words), slashes + 1)
+    else:
+        parts = [(*word.split("/"), "", "")[:3] for word in words]
+        table = np.array([[int(v), int(t or 0), int(n or 0)] for v, t, n in parts], dtype=np.int64).reshape(-1, 3)
+    return table[:, 0], table[:, 1], table[:, 2]
 
 
 def _from_zero(path: Path, index: Integers, before: Integers, count: int, lines: Integers, noun: str, plural: str) -> Integers:

@@ -6,9 +6,8 @@ import csv
 import io
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +17,14 @@ from numpy.typing import ArrayLike
 from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import Measure
-from workbench.core.mesh import Mesh
+from workbench.core.mesh import FaceAttributes, Mesh
 from workbench.core.method import Kind
 from workbench.core.plane_frame import into_plane_of
 from workbench.core.quality import simplex_table
 from workbench.io.atomic import replacing, write_text
 from workbench.io.foreign import silenced
-from workbench.io.polygons import unfan
+from workbench.io.obj_attributes import library_lines
+from workbench.io.obj_faces import faces_text
 
 WRITABLE = (".obj", ".npz", ".vtu", ".mesh", ".msh", ".csv")
 """Endings of the files that a map can be written to."""
@@ -46,10 +46,10 @@ def write_map(
 ) -> None:
     """Writes a map in the format of the ending of `path`; the file is whole or not there.
 
-    OBJ: for parameterize the vertices and faces of the file as they were, polygons too, and the map as `vt`; for
-    plane and volume the map as `v` (in the plane of the file where that was a plane in space). npz: `V S X anchors
-    targets`. VTU: the map, with fields on the simplices. MEDIT and Gmsh (2.2, binary): the map alone. CSV: a row a
-    simplex, a column a field.
+    OBJ: for parameterize the vertices and faces of the file as they were, polygons too, and the map as `vt`, with the
+    objects, groups, materials and normals of the file; for plane and volume the map as `v` (in the plane of the file where
+    that was a plane in space). npz: `V S X anchors targets`. VTU: the map, with fields on the simplices. MEDIT and Gmsh
+    (2.2, binary): the map alone. CSV: a row a simplex, a column a field.
     Numbers have as many digits as it takes to read back to the same values.
 
     Parameters
@@ -66,7 +66,7 @@ def write_map(
     ending = Path(path).suffix.lower()
     positions = np.asarray(positions, dtype=np.float64)
     if ending == ".obj":
-        write_text(path, obj_text(file_mesh, source_mesh, positions, kind))
+        write_text(path, obj_text(file_mesh, source_mesh, positions, kind, Path(path)))
     elif ending == ".npz":
         _write_npz(path, source_mesh, positions, anchor_vertices, anchor_targets)
     elif ending in (".vtu", ".csv"):
@@ -82,14 +82,15 @@ def write_map(
 
 def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:
     """Writes a mesh alone, as OBJ (tetrahedra as faces of four corners; triangles with their texture coordinates)."""
-    vertices = _rows("v", _in_space(mesh.vertices))
-    if mesh.texture is not None:
-        corners = np.stack([mesh.simplices, mesh.texture.corners], axis=2) + 1
-        faces = ("f %d/%d %d/%d %d/%d\n" * mesh.simplex_count) % tuple(corners.ravel().tolist())
-        write_text(path, vertices + _rows("vt", mesh.texture.coordinates) + faces)
+    if mesh.dimension == 3:
+        write_text(path, _rows("v", mesh.vertices) + faces_text(mesh.simplices))
         return
-    polygons = unfan(mesh.simplices, mesh.polygons) if mesh.dimension == 2 else mesh.simplices.tolist()
-    write_text(path, vertices + _faces(polygons, str))
+    texture, attributes = mesh.texture, mesh.attributes
+    if attributes is not None:  # normals are those of another shape as soon as vertices have moved
+        attributes = replace(attributes, normals=np.empty((0, 3)))
+    points, corners = (None, None) if texture is None else (texture.coordinates, texture.corners)
+    faces = faces_text(mesh.simplices, mesh.polygons, corners, attributes)
+    write_text(path, _surface_text(mesh.vertices, points, faces, attributes, Path(path)))
 
 
 def write_surface(
@@ -126,20 +127,31 @@ def write_case(path: str | os.PathLike[str], arrays: Mapping[str, ArrayLike]) ->
         np.savez_compressed(stream, **{name: np.asarray(values) for name, values in arrays.items()})
 
 
-def obj_text(file_mesh: Mesh, source_mesh: Mesh, positions: Floats, kind: Kind) -> str:
-    """The OBJ file of a map; see `write_map`."""
+def obj_text(file_mesh: Mesh, source_mesh: Mesh, positions: Floats, kind: Kind, place: Path) -> str:
+    """The OBJ file of a map at a place; see `write_map`."""
     if kind == "volume":
-        return _rows("v", positions) + _faces(source_mesh.simplices.tolist(), str)
-    faces = unfan(source_mesh.simplices, source_mesh.polygons)
+        return _rows("v", positions) + faces_text(source_mesh.simplices)
+    attributes, polygons = source_mesh.attributes, source_mesh.polygons
     if kind == "plane":
-        return _rows("v", _plane_points(file_mesh, source_mesh, positions)) + _faces(faces, str)
-    if source_mesh.vertex_origin is None:
-        kept, vertex = file_mesh.vertices, np.arange(1, source_mesh.vertex_count + 1)
-    else:
+        faces = faces_text(source_mesh.simplices, polygons, None, attributes)
+        return _surface_text(_plane_points(file_mesh, source_mesh, positions), None, faces, attributes, place)
+    kept, vertices = file_mesh.vertices, source_mesh.simplices
+    if source_mesh.vertex_origin is not None:
         used, number = np.unique(source_mesh.vertex_origin, return_inverse=True)
-        kept, vertex = file_mesh.vertices[used], number.reshape(-1) + 1
-    corner = [f"{v}/{t}" for t, v in enumerate(vertex.tolist(), start=1)]
-    return _rows("v", _in_space(kept)) + _rows("vt", positions) + _faces(faces, lambda t: corner[t - 1])
+        kept, vertices = kept[used], number.reshape(-1)[vertices]
+    faces = faces_text(vertices, polygons, source_mesh.simplices, attributes)
+    return _surface_text(kept, positions, faces, attributes, place)
+
+
+def _surface_text(vertices: Floats, texture: Floats | None, faces: str, attributes: FaceAttributes | None, place: Path) -> str:
+    """Everything of an OBJ file of a surface, in the order that programs expect."""
+    parts = [] if attributes is None else [library_lines(attributes, place)]
+    parts.append(_rows("v", _in_space(vertices)))
+    if texture is not None:
+        parts.append(_rows("vt", texture))
+    if attributes is not None:
+        parts.append(_rows("vn", attributes.normals))
+    return "".join((*parts, faces))
 
 
 def _plane_points(file_mesh: Mesh, source_mesh: Mesh, positions: Floats) -> Floats:
@@ -157,10 +169,6 @@ def _in_space(points: Floats) -> Floats:
 def _rows(keyword: str, table: Floats) -> str:
     row = keyword + " %r" * table.shape[1] + "\n"
     return (row * len(table)) % tuple(table.ravel().tolist())
-
-
-def _faces(faces: list[list[int]], corner: Callable[[int], str]) -> str:
-    return "".join(chain.from_iterable(("f ", " ".join([corner(v + 1) for v in face]), "\n") for face in faces))
 
 
 def _write_npz(
