@@ -43,6 +43,16 @@ def test_a_session_that_was_typed_is_solved_as_the_command_line_does(cli, tmp_pa
     assert len(rows) == ours["iterations"] + 2, "a header, the start, a row an iteration"
 
 
+def test_a_run_that_fails_is_told_as_the_command_line_does(cli, tmp_path: Path, square_file: Path) -> None:
+    equations = ["x[0] = 0.0", "x[0] = 1.0"]  # no map keeps both
+    session = by_hand(tmp_path / "s.json", square_file.name, linear_equations=equations)
+    (tmp_path / "e.txt").write_text("\n".join(equations))
+    ours = cli("run", session, "--out", tmp_path / "out")
+    theirs = cli("solve", square_file, "--equations", tmp_path / "e.txt", "--out", tmp_path / "map.npz")
+    assert (ours.status, ours.err.splitlines()[-1:]) == (theirs.status, theirs.err.splitlines()[-1:])
+    assert ours.status == 1 and ours.err and (tmp_path / "out" / "map.npz").exists()
+
+
 def test_a_map_that_a_hand_made_is_measured_as_it_is(cli, tmp_path: Path, square_file: Path, square) -> None:
     positions = square.vertices * [1.5, 0.8]
     record = SessionRecord(Session(source=str(square_file), distortion="dirichlet"), map=positions, energy=None)
@@ -85,6 +95,7 @@ def test_a_missing_or_changed_mesh_is_asked_for(cli, tmp_path: Path, square_file
         {"initializer": "file", "start_file": "/etc/passwd"},
         {"fixes": ["rm"]},
         {"anchors": [[10**9, [0, 0]]]},
+        {"anchors": [[10**9, [0, 0], None, -1, "off"]]},
         {"solver_parameters": {"no_such": 1}},
         {"carried": "../../etc/passwd"},
     ],

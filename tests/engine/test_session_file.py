@@ -154,6 +154,8 @@ HOSTILE_VALUES: list[dict[str, Any]] = [
     {"anchors": [[0, [0, 0], None, -1, True]]},
     {"anchors": [[0, [0, 0], "off"]]},
     {"anchors": [[0, [0, 0], -3]]},
+    {"anchors": [[0, [0, 0], 0]]},
+    {"anchors": [[0, [0, 0], 1e70]]},
     {"anchors": [[0, [0, 0], None, "g"]]},
     {"linear_equations": "x[0] = 0"},
     {"linear_equations": ["__import__('os').system('true') = x[0]"]},

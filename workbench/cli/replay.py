@@ -68,6 +68,9 @@ def run(options: argparse.Namespace) -> int:
     if report["session"]["same_energy"] is False:
         print("workbench: The energy is not the one that was recorded; the map was written all the same.", file=sys.stderr)
         return RUN_FAILED
+    if record.map is None and not record.legs and found.result.state.status.is_failure:  # it was solved here and now
+        print(f"workbench: {report['message']}", file=sys.stderr)
+        return RUN_FAILED
     return 0
 
 

@@ -12,6 +12,8 @@ from scipy import sparse
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.errors import WorkbenchError
 
+LARGEST_WEIGHT = 1e12
+"""Of a soft anchor: beyond it the penalty drowns the distortion in rounding; such an anchor is a hard one."""
 INDEPENDENT = 1e-10
 """Part of the length of a row that has to be left beyond the rows before it, or they say the same."""
 

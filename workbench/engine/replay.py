@@ -58,8 +58,10 @@ def solver_of(session: Session, problem: Problem) -> Solver:
 
 
 def anchors_of(session: Session, vertex_count: int, dimension: int) -> Anchors:
-    """The anchors of a session that are in force, for a mesh. Raises `WorkbenchError` where they do not fit it."""
-    session = session.in_force
+    """The anchors of a session that are in force, for a mesh. Raises `WorkbenchError` where any of them does not fit it."""
+    if session.anchors_off:
+        anchors_of(replace(session, anchors_off=frozenset()), vertex_count, dimension)
+        session = session.in_force
     if not session.anchor_vertices:
         return Anchors.none(dimension)
     anchors = Anchors(

@@ -21,7 +21,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats, frozen
 from workbench.core.errors import WorkbenchError
-from workbench.io.atomic import replacing
+from workbench.io.atomic import replacing, utf8
 from workbench.io.opening import SAMPLE
 from workbench.io.png_content import content_of, is_png, with_content
 from workbench.io.read import read_bytes
@@ -41,6 +41,8 @@ EXPANSION = 16
 """Bytes that a byte of a zip may become; in those that are written here it stays one."""
 MOST_MEMBERS = 4096
 PATH_FIELDS = ("source", "start_file", "carried")
+LONGEST_SHOWN = 300
+"""Characters of a path in a sentence."""
 LONG_AGO = (1980, 1, 1, 0, 0, 0)
 """Date of all members: the same session gives the same bytes."""
 
@@ -91,7 +93,7 @@ def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool
         legs = tuple(replace(leg, positions=None) for leg in record.legs)
         record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
     plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: _relative(name, folder))))
-    text = (readable(plain) + "\n").encode("utf-8")
+    text = utf8(readable(plain) + "\n")
     if is_bare:
         stream.write(text)
         return
@@ -228,13 +230,21 @@ def source_digest(source: str) -> str:
         return ""
 
 
+def _is_file(source: str) -> bool:
+    try:
+        return Path(source).is_file()
+    except (OSError, ValueError):  # a name that no file can have, or a folder that may not be looked into
+        return False
+
+
 def source_trouble(record: SessionRecord) -> str:
     """Why the source of a session cannot be used as it was, in a sentence; empty where it can."""
     source = record.session.source
     if not source or source.startswith(SAMPLE):
         return "" if source else "The session names no mesh."
-    if not Path(source).is_file():
-        return f"The mesh of the session is not at {source}."
+    if not _is_file(source):
+        shown = source if len(source) <= LONGEST_SHOWN else f"…{source[-LONGEST_SHOWN:]}"
+        return f"The mesh of the session is not at {shown}."
     if record.sha256 and source_digest(source) != record.sha256:
         return f"The mesh {source} is another than when the session was saved."
     return ""

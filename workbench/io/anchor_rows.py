@@ -10,11 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
+from workbench.core.constraints import LARGEST_WEIGHT
 from workbench.core.errors import WorkbenchError
 from workbench.io.mesh_file import LARGEST_COORDINATE
 
-LARGEST_WEIGHT = 1e12
-"""Of a soft anchor: beyond it the penalty drowns the distortion in rounding; such an anchor is a hard one."""
 LARGEST_GROUP = 2**62
 AXES = ("x", "y", "z")
 MORE = ("weight", "group", "on")

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.core.constraints import LARGEST_WEIGHT
 from workbench.core.errors import WorkbenchError
 from workbench.core.linear_equations import LONGEST_EQUATION, MOST_EQUATIONS, read_equations
 from workbench.core.method import KINDS
@@ -67,6 +68,13 @@ def number(what: str, value: Any, lowest: float = -LARGEST_COORDINATE, highest: 
 
 def amount(what: str, value: Any) -> float:
     return number(what, value, 0.0)
+
+
+def weight(what: str, value: Any) -> float:
+    """Of a soft anchor, as files of anchors may have it."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value <= LARGEST_WEIGHT:
+        raise refuse(what, value, f"a positive number up to {LARGEST_WEIGHT:g}, or null for a hard anchor")
+    return float(value)
 
 
 def kind(what: str, value: Any) -> str:
@@ -146,7 +154,7 @@ def anchors(what: str, value: Any) -> dict[str, Any]:
             raise refuse(f"A target of {what}", target, "two coordinates each, or three each")
         targets.append(tuple(number(f"A target of {what}", c) for c in target))
         soft = row[2] if len(row) > 2 else None
-        weights.append(math.inf if soft is None else amount(f"A weight of {what}", soft))
+        weights.append(math.inf if soft is None else weight(f"A weight of {what}", soft))
         groups.append(whole(f"A group of {what}", row[3], -1, 2**62) if len(row) > 3 else -1)
         if len(row) > 4:
             if row[4] != OFF:
