@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import sys
@@ -65,6 +66,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line (`sys.argv` where none is given) and return the exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     given[1:] = map(_as_formula, given[1:])
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # what names of files have that is no text is shown all the same
     parser = build_parser()
     try:
         options = parser.parse_args(_with_command(given, parser))

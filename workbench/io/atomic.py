@@ -95,4 +95,9 @@ def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
     """Writes `text` as UTF-8, whole or not at all."""
-    write_bytes(path, text.encode("utf-8"))
+    write_bytes(path, utf8(text))
+
+
+def utf8(text: str) -> bytes:
+    r"""`text` as bytes; what names of files have that is no text stands as `\udcff` does, which JSON and Python read back."""
+    return text.encode("utf-8", errors="backslashreplace")

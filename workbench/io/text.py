@@ -6,6 +6,7 @@ import codecs
 from pathlib import Path
 
 from workbench.core.errors import MeshError
+from workbench.io.atomic import utf8
 
 
 def decoded(path: Path, data: bytes) -> str:
@@ -24,3 +25,8 @@ def decoded(path: Path, data: bytes) -> str:
         except UnicodeDecodeError:
             text = data.decode("latin-1")
     return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def shown_name(name: str) -> str:
+    r"""The name of a file for people: bytes in it that are no text stand as `\udcff` does."""
+    return utf8(name).decode("utf-8")
