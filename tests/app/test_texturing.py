@@ -20,13 +20,13 @@ from tests.app.fake_engine import bumpy_mesh, grid_mesh
 from workbench.app.first_start import why_not_own_start, with_own_start
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
-from workbench.app.texturing.picture_file import KEPT_SIDE, read_picture
 from workbench.app.texturing.texturing import Texturing
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.textures import PATTERNS, TILE, Texture, pattern_image
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh, TextureCoordinates
 from workbench.engine.messages import Loaded
+from workbench.io.picture import KEPT_SIDE, read_picture
 from workbench.session.session import Session
 
 

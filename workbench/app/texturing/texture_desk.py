@@ -11,13 +11,15 @@ from PySide6.QtWidgets import QFileDialog, QMenu
 
 from workbench.app.first_start import has_own_map
 from workbench.app.texturing.pattern_dialog import PatternDialog
-from workbench.app.texturing.picture_file import FILTERS, is_picture
 from workbench.app.views.pane import ViewPane
 from workbench.app.views.textures import PATTERN_LABELS
 from workbench.core.errors import WorkbenchError
+from workbench.io.picture import is_picture
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+
+FILTERS = "Pictures (*.png *.jpg *.jpeg)"
 
 
 class TextureDesk(QObject):

@@ -10,12 +10,12 @@ from weakref import ref
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.texturing.picture_file import read_picture
 from workbench.app.views.camera import Points
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import Pattern, Pixels, Texture
 from workbench.core.errors import WorkbenchError
+from workbench.io.picture import read_picture
 
 OTHER_SIZE = 1.8
 """Factor of the size of a map from which on the pattern is fitted to it anew: until then it does not swim."""
@@ -42,8 +42,8 @@ class Texturing(QObject):
 
     changed = Signal()
 
-    def __init__(self, source: MeshView, target: MeshView) -> None:
-        super().__init__()
+    def __init__(self, source: MeshView, target: MeshView, parent: QObject | None = None) -> None:
+        super().__init__(parent)
         self._source, self._target = source, target
         self.layout = PatternLayout()
         self._picture: Pixels | None = None
