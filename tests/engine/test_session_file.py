@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pickle
+import sys
 import zipfile
 from collections.abc import Callable
 from dataclasses import replace
@@ -71,6 +72,18 @@ def records(draw: st.DrawFn) -> SessionRecord:
     )  # fmt: skip
     legs = (replace(first, iterations=3), Leg(session.in_force, "previous", None, 7)) if draw(st.booleans()) else ()
     return SessionRecord(session, draw(st.sampled_from(["", "0" * 64])), positions, legs, draw(st.one_of(st.none(), FINITE)))
+
+
+@pytest.mark.skipif(os.name != "posix" or sys.platform == "darwin", reason="names of files are text there")
+def test_the_name_of_a_mesh_need_not_be_text(tmp_path: Path) -> None:
+    mesh = tmp_path / os.fsdecode(b"a\xff.obj")
+    mesh.write_text("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n")
+    for name in ("s.dwb", "s.json"):
+        write_session(tmp_path / name, SessionRecord(Session(source=str(mesh))))
+        assert read_session(tmp_path / name).session.source == str(mesh)
+    with pytest.raises(WorkbenchError, match="distortion"):
+        (tmp_path / "s.json").write_text(json.dumps(HEAD | {"distortion": "sum(sigma\ud800)"}))
+        read_session(tmp_path / "s.json")
 
 
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.engine.test_race import problem_on
 from workbench.core.jacobians import signed_singular_values
+from workbench.core.refine import LevelMeasures
 from workbench.core.registry import registry
 from workbench.engine.race import Contestant, Limits, Race
 from workbench.figures.contact_sheet import LAST, contact_sheet, sheet_columns
 from workbench.figures.convergence_curves import QUANTITIES, convergence_curves, curves_of
+from workbench.figures.level_curves import level_curves
 
 
 @pytest.fixture(scope="module")
@@ -71,6 +75,17 @@ def test_a_sheet_has_a_cell_for_each_map_on_one_scale(race):
     words = {text.get_text() for axes in cells for text in (axes.title, axes.yaxis.label)}
     assert {"iteration 0", "iteration 3", "last", "given", "source, aqp"} <= words
     assert f"ended at {newton.state.iteration}" in words
+
+
+def test_names_of_files_are_no_mathematics(race):
+    name = r"a$\q$.obj"
+    curves = [replace(curve, label=name) for curve in curves_of(race)]
+    columns = [replace(column, label=name) for column in sheet_columns(race, (LAST,))]
+    levels = {"loop": [LevelMeasures(0, 4, 2, 0, {name: 1.0}), LevelMeasures(1, 9, 8, 0, {name: 2.0})]}
+    sheet = contact_sheet(race.racers[0].problem, columns, (LAST,), name)
+    for figure in (convergence_curves(curves, name), sheet, level_curves(levels, name)):
+        figure.canvas.draw()  # where it is read as mathematics, there is no such symbol
+        assert figure.get_suptitle().startswith(name)
 
 
 def test_inverted_simplices_are_yellow_on_top(square):

@@ -16,6 +16,7 @@ from workbench.core.solver import Solver
 from workbench.engine.contestants import Contestant, SolverChoice
 from workbench.engine.preparation import PreparedProblem, configured, prepare_problem
 from workbench.io.opening import map_from_file
+from workbench.io.text import shown_name
 
 REFUSED = "REFUSED"
 """What the table says in place of a status."""
@@ -95,7 +96,7 @@ def mesh_names(files: list[str]) -> list[str]:
     """A name for each file: its last part without the ending, numbered where that is not enough."""
     names: list[str] = []
     for file in files:
-        stem = Path(file.removeprefix("sample:")).stem
+        stem = shown_name(Path(file.removeprefix("sample:")).stem)
         taken = sum(name == stem or name.startswith(f"{stem}-") for name in names)
         names.append(f"{stem}-{taken + 1}" if taken else stem)
     return names

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from workbench.cli.settings import add_set_option
 from workbench.core.errors import WorkbenchError
+from workbench.io.text import shown_name
 
 if TYPE_CHECKING:
     from workbench.engine.preparation import Wishes
@@ -60,7 +61,7 @@ def fixes(text: str) -> tuple[str, ...]:
 def label_and_file(text: str) -> tuple[str, str]:
     """The two parts of `[LABEL=]FILE`; the label is the file's name where there is none."""
     label, equals, file = text.partition("=")
-    return (label, file) if equals and not os.path.exists(text) else (Path(text).name, text)
+    return (label, file) if equals and not os.path.exists(text) else (shown_name(Path(text).name), text)
 
 
 def add_source_options(parser: argparse.ArgumentParser) -> None:

@@ -12,6 +12,7 @@ from workbench.cli.output import check_places
 from workbench.core.errors import WorkbenchError
 from workbench.io.json_text import json_text
 from workbench.io.tables import number, table
+from workbench.io.text import shown_name
 
 if TYPE_CHECKING:
     from workbench.core.signature import Distances, Signature
@@ -63,7 +64,7 @@ def _signatures(options: argparse.Namespace) -> list[Signature]:
         opened = open_map(file, kind=options.map, fixes=tuple(options.fixes), tets=options.tets)
         if opened.was_mirrored:
             print(f"{file}: the map is mirrored as a whole; its reflection is taken.", file=sys.stderr)
-        item = signature(opened.mesh, opened.positions, Path(file).stem)
+        item = signature(opened.mesh, opened.positions, shown_name(Path(file).stem))
         if any(item.name == other.name for other in found):
             item = item.named(file)
         found.append(item.normalised() if options.normalise else item)

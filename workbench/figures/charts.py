@@ -10,7 +10,7 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.signature import Signature, densities
 from workbench.figures.colour_scale import LOGARITHMIC
-from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS
+from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS, without_mathematics
 from workbench.figures.recipe import QUANTITIES
 from workbench.figures.text_fit import fit_text, text_width
 
@@ -138,9 +138,9 @@ def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size:
 
 
 def _legend(axes: Axes, font_size: float) -> None:
-    legend = axes.legend(fontsize=0.85 * font_size, frameon=False, handlelength=1.8, borderaxespad=0.2, labelspacing=0.25)
-    for text in legend.get_texts():
-        text.set_parse_math(False)
+    without_mathematics(
+        axes.legend(fontsize=0.85 * font_size, frameon=False, handlelength=1.8, borderaxespad=0.2, labelspacing=0.25)
+    )
 
 
 def _label_below(axes: Axes, words: str, font_size: float, room: float) -> None:

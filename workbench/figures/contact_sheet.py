@@ -101,22 +101,22 @@ def contact_sheet(problem: Problem, columns: Sequence[SheetColumn], rows: Sequen
         for i, item in enumerate(column.maps):
             cell = left[i, j]
             _draw_target(cell, problem, skin, paint, turned[j][i], item.positions, half)
-            cell.set_title(_caption(column, item, rows[i]), fontsize=6.5, pad=2)
+            cell.set_title(_caption(column, item, rows[i]), fontsize=6.5, pad=2, parse_math=False)
             if i == 0:
                 cell.annotate(
                     column.label, (0.5, 1), (0, 14), xycoords="axes fraction", textcoords="offset points",
-                    ha="center", fontsize=9,
+                    ha="center", fontsize=9, parse_math=False,
                 )  # fmt: skip
             if j == 0:
                 cell.set_ylabel("last" if rows[i] == LAST else f"iteration {rows[i]}", fontsize=8)
         _draw_source(right[j], problem, skin, view, column)
     bar = figure.colorbar(paint, ax=list(left.ravel()), location="bottom", extend="max", shrink=0.6, aspect=40, pad=0.01)
-    bar.set_label(_distortion_name(problem), fontsize=8)
+    bar.set_label(_distortion_name(problem), fontsize=8, parse_math=False)
     bar.ax.tick_params(labelsize=7)
     if half is None:
         title = f"{title} (each map fills its cell)".strip()
     if title:
-        figure.suptitle(title, fontsize=10)
+        figure.suptitle(title, fontsize=10, parse_math=False)
     return figure
 
 
@@ -214,7 +214,7 @@ def _draw_source(cell: Axes, problem: Problem, skin: Skin, view: Floats | None, 
     square = texture_square(mesh, problem.total_measure)
     image = textured_picture(points, skin, column.maps[-1].positions, square, frame)
     cell.imshow(image, extent=frame.extent, origin="lower")
-    cell.set_title(f"source, {column.label}", fontsize=7, pad=2)
+    cell.set_title(f"source, {column.label}", fontsize=7, pad=2, parse_math=False)
     _bare(cell)
 
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
+    from matplotlib.legend import Legend
 
     from workbench.engine.race import Race
 
@@ -94,10 +95,18 @@ def convergence_curves(curves: Sequence[Curve], title: str = "") -> Figure:
     panels[-1][0].set_xlabel("iterations", fontsize=8)
     panels[-1][1].set_xlabel("seconds", fontsize=8)
     handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=8, handlelength=3.2)
+    without_mathematics(
+        figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False, fontsize=8, handlelength=3.2)
+    )
     if title:
-        figure.suptitle(title, fontsize=10)
+        figure.suptitle(title, fontsize=10, parse_math=False)
     return figure
+
+
+def without_mathematics(legend: Legend) -> None:
+    """Words between dollar signs in a legend, as names of files may have them, are drawn as they stand."""
+    for text in legend.get_texts():
+        text.set_parse_math(False)
 
 
 def _draw(panel: Axes, name: str, axis: str, curves: Sequence[Curve]) -> None:

@@ -42,7 +42,7 @@ def level_curves(curves: Mapping[str, Sequence[LevelMeasures]], title: str = "")
     handles, labels = panels[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
     if title:
-        figure.suptitle(title, fontsize=10)
+        figure.suptitle(title, fontsize=10, parse_math=False)
     return figure
 
 
@@ -60,7 +60,7 @@ def _draw(panel: Axes, name: str, curves: Mapping[str, Sequence[LevelMeasures]])
         # rounding is no curve: without this the axis would zoom into it
         margin = max(0.05 * abs(shown[0]), 1e-3)
         panel.set_ylim(shown[0] - margin, shown[0] + margin)
-    panel.set_title(name if len(name) <= 34 else f"{name[:33]}…", fontsize=9)
+    panel.set_title(name if len(name) <= 34 else f"{name[:33]}…", fontsize=9, parse_math=False)
     panel.set_xlabel("level", fontsize=8)
     panel.tick_params(labelsize=8)
     panel.ticklabel_format(axis="y", useOffset=False)

@@ -10,6 +10,7 @@ import numpy as np
 from workbench.core.arrays import Floats, Integers, frozen
 from workbench.core.errors import MeshError
 from workbench.core.mesh import FaceAttributes, Mesh, TextureCoordinates
+from workbench.io.text import shown_name
 
 LARGEST_COORDINATE = 1e70
 """Beyond this, products of four lengths leave the range of double precision."""
@@ -57,7 +58,7 @@ def mesh_of_file(
     """A mesh with the name of its file; `MeshError` names the file for whatever does not fit."""
     vertices = np.asarray(vertices, dtype=np.float64)
     try:
-        mesh = Mesh(vertices, simplices, path.name, texture, polygons, attributes=attributes)
+        mesh = Mesh(vertices, simplices, shown_name(path.name), texture, polygons, attributes=attributes)
     except MeshError as error:
         raise MeshError(f"{path}: {error.sentence}") from None
     check_range(path, vertices)

@@ -35,15 +35,17 @@ def refuse(what: str, value: Any, wanted: str) -> WorkbenchError:
 
 
 def text(what: str, value: Any, longest: int = LONGEST_TEXT) -> str:
-    """A string without control characters."""
+    """A string without control characters, and without halves of characters, which nothing can draw."""
+    if any(0xD800 <= ord(c) < 0xE000 for c in path(what, value, longest)):
+        raise refuse(what, value, "text")
+    return str(value)
+
+
+def path(what: str, value: Any, longest: int = LONGEST_PATH) -> str:
+    """The name of a file, or `sample:ID`; bytes of a name that are no text stand in it as halves of characters."""
     if not isinstance(value, str) or len(value) > longest or any(ord(c) < 32 for c in value):
         raise refuse(what, value, f"a line of at most {longest} characters")
     return value
-
-
-def path(what: str, value: Any) -> str:
-    """The name of a file, or `sample:ID`."""
-    return text(what, value, LONGEST_PATH)
 
 
 def flag(what: str, value: Any) -> bool:
