@@ -106,7 +106,7 @@ class FakeWorker:
             self._publish()
         elif isinstance(command, TakeUp):
             self._positions, self._serial, self._running = command.positions.copy(), command.anchors.serial, False
-            self._dragging, self._iteration = False, command.iteration
+            self._dragging, self._iteration = False, command.iteration - 1  # it is told as it was, not stepped
             self._publish()
         elif isinstance(command, Reset):
             self._positions, self._iteration = self._start.copy(), 0
@@ -176,7 +176,7 @@ class FakeWorker:
         sigma = np.abs(area / rest) ** (1 / self._mesh.dimension)
         inverted = area <= 0
         energy = float((sigma**2 + 1 / np.maximum(sigma, 1e-3) ** 2).mean())
-        seconds, norm = 0.01 * self._iteration, 1 / self._iteration
+        seconds, norm = 0.01 * self._iteration, 1 / max(self._iteration, 1)
         row = HistoryRow(self._iteration, seconds, energy, energy, norm, 1.0, int(inverted.sum()), 0.0)
         phase = "dragging" if self._dragging and self._running else "running" if self._running else "idle"
         self._tell(

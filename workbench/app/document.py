@@ -13,6 +13,7 @@ from workbench.app.document_state import DocumentState
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_anchors import SAMPLE, first_anchors
 from workbench.app.first_start import with_own_start, with_start_held
+from workbench.app.history import Curves
 from workbench.app.orders import Orders
 from workbench.app.quantities import Quantity
 from workbench.app.sessions.restoring import (
@@ -64,6 +65,7 @@ class Document(DocumentState):
         bridge.snapshot.connect(self._take_snapshot)
         bridge.refused.connect(self._take_refused)
         bridge.failure.connect(self._take_failure)
+        bridge.restarted.connect(self._take_restarted)
         bridge.dissected.connect(self._take_dissected)
         bridge.leg_begun.connect(self._take_leg)
 
@@ -99,13 +101,16 @@ class Document(DocumentState):
         self._bridge.post(Load(source=source, generation=self.generation, kind=kind, fixes=fixes))
         self.opening.emit(source)
 
-    def restore(self, session: Session, positions: Floats | None, *, run: bool = False) -> None:
-        """Bring back choices with their anchors and a map (n, d), or the start where there is none; then run, or rest."""
+    def restore(self, session: Session, positions: Floats | None, *, run: bool = False, curves: Curves | None = None) -> None:
+        """Bring back choices with their anchors and a map (n, d), or the start where there is none; then run, or rest.
+
+        `curves` are those that led to the map, where they are known.
+        """
         there = self.positions if is_on_same_source(session, self.session) and not self.opening_source else None
+        wanted = Wanted(session, positions, run, curves)
         if positions is not None and there is not None and there.shape == positions.shape:
-            self._take_up(Wanted(session, positions, run))
+            self._take_up(wanted)
         else:
-            wanted = Wanted(session, positions, run)
             self.open(session.source, kind=session.kind, fixes=session.fixes, wanted=wanted)
 
     def _take_up(self, wanted: Wanted) -> None:
@@ -113,8 +118,11 @@ class Document(DocumentState):
         self._earlier.keep_all(self.complete_session)
         self._orders.number_anew()
         self._put(wanted.session)
-        self._orders.take_up(wanted.session, wanted.positions, self.loaded.generation)
+        self._orders.take_up(wanted, self.loaded.generation)
+        self._taken_up = (self.anchor_serial, wanted.positions)
         self.history_restarted.emit()
+        if wanted.curves is not None:
+            self.curves_returned.emit(wanted.curves)
         if wanted.runs:
             self._run()
 
@@ -160,7 +168,7 @@ class Document(DocumentState):
         self.session = replace(self._attempt or self.session, fixes=report.fixes, **fresh)
         self.opening_source = ""
         self.loaded = report
-        self.snapshot = self._past = None
+        self.snapshot = self._past = self._taken_up = None
         self.wants_to_run = self.is_held = self._is_told = False
         self.selection = ()
         self.anchors = AnchorSet.none()
@@ -183,6 +191,7 @@ class Document(DocumentState):
                 self.session = restored
                 self.session_changed.emit()
             elif report.command == "TakeUp":
+                self._taken_up = None
                 self._put(self._earlier.before_taking_up())
             elif report.command in ("Run", "Step"):
                 self.wants_to_run = False
@@ -191,7 +200,11 @@ class Document(DocumentState):
 
     def _take_failure(self, report: Failure) -> None:
         self.wants_to_run = False
+        self._taken_up = None
         self.session_changed.emit()
+
+    def _take_restarted(self) -> None:
+        self._taken_up = None  # the engine goes on from the last map that it has told
 
     # ------------------------------------------------------------------------------------------ maps
 
@@ -200,7 +213,9 @@ class Document(DocumentState):
         # while another mesh is being read, the one on the screen goes on
         if self.loaded is None or mesh is None or snapshot.generation != self.loaded.generation:
             return
-        self.snapshot = snapshot
+        if self._taken_up is not None and snapshot.anchor_serial < self._taken_up[0]:
+            return  # of before the map that was brought back
+        self.snapshot, self._taken_up = snapshot, None
         self._has_finished = snapshot.phase == "finished"
         self.snapshot_taken.emit()
         if self._past is None:

@@ -28,6 +28,8 @@ class DocumentState(QObject):
     shown_changed = Signal()
     """Views have another map to show: the newest, or an earlier one while somebody looks back."""
     history_restarted = Signal()
+    curves_returned = Signal(object)
+    """An earlier map is back, and these are the `Curves` that led to it."""
     drag_sent = Signal(int, float)
     refused = Signal(object)
     dissected = Signal(object)
@@ -39,6 +41,7 @@ class DocumentState(QObject):
         self.loaded: Loaded | None = None
         self.snapshot: Snapshot | None = None
         self._past: tuple[Snapshot, AnchorSet] | None = None
+        self._taken_up: tuple[int, Floats] | None = None
         self.anchors = AnchorSet.none()
         self.selection: tuple[int, ...] = ()
         self.wants_to_run = False
@@ -55,7 +58,9 @@ class DocumentState(QObject):
 
     @property
     def positions(self) -> Floats | None:
-        """The newest map (n, d)."""
+        """The newest map (n, d): one that was brought back counts before the engine has answered."""
+        if self._taken_up is not None:
+            return self._taken_up[1]
         return self.snapshot.positions if self.snapshot is not None else None
 
     @property

@@ -45,6 +45,7 @@ from workbench.app.quantities import LIVE_QUANTITIES
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.readings.readings import Readings
 from workbench.app.reporter import Reporter
+from workbench.app.run_curves import RunCurves
 from workbench.app.sessions.autosave import Autosave
 from workbench.app.sessions.session_files import SessionFiles
 from workbench.app.sessions.undo_dock import UndoDock
@@ -97,6 +98,8 @@ class MainWindow(QMainWindow):
         self.undoing = Undoing(self.document)
         self.history = History()
         self.switches = Switches(self.document, self.history)
+        self.curves = RunCurves(self.document, self.history, self.switches)
+        self.undoing.curves = self.curves.kept
         self.brush = SimplexBrush(self)
         self.quantities = QuantityBook(self)
         self.actions_by_name = make_actions(self, self.theme)
@@ -242,8 +245,7 @@ class MainWindow(QMainWindow):
         self.theme_switch.changed.connect(self._apply_theme)
         self.source.style_chosen.connect(self.set_source_style)
         self.target.style_chosen.connect(self.set_target_style)
-        self.document.snapshot_taken.connect(self._extend_history)
-        self.document.history_restarted.connect(self._restart_history)
+        self.curves.begun_again.connect(self.turns.all_stale)
         self.document.opened.connect(lambda: self.histogram.set_mesh(self.document.mesh))
         self.histogram.redraw_wanted.connect(self.turns.all_stale)
         self.panel.distortion.tools.formulas_changed.connect(lambda _: self._list_quantities())
@@ -264,16 +266,6 @@ class MainWindow(QMainWindow):
     def set_source_style(self, style: str) -> None:
         """Colour the source by a pattern of the map, or by a quantity."""
         self.colouring.set_style(self.source, style)
-
-    def _extend_history(self) -> None:
-        snapshot = self.document.snapshot
-        assert snapshot is not None
-        self.history.extend(snapshot.rows)
-
-    def _restart_history(self) -> None:
-        self.history.clear()
-        self.switches.clear()
-        self.turns.all_stale()
 
     def _draw_histogram(self) -> None:
         if self.document.shown is not None:

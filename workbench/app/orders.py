@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.engine_bridge import EngineBridge
-from workbench.core.arrays import Floats
+from workbench.app.sessions.restoring import Wanted
 from workbench.engine.messages import Reset, Run, SetAnchors, Watch
 from workbench.engine.session_commands import problem_command, solver_command, take_up
 from workbench.session.session import Session
@@ -51,9 +51,13 @@ class Orders:
         """What is under way answers something else from now on."""
         self.problem_serial, self.anchor_serial = self.problem_serial + 1, self.anchor_serial + 1
 
-    def take_up(self, session: Session, positions: Floats, generation: int) -> None:
-        """Choices, anchors and map at once, under the present numbers."""
-        self._bridge.post(take_up(session, positions, generation, self.anchor_serial, self.problem_serial))
+    def take_up(self, wanted: Wanted, generation: int) -> None:
+        """Choices, anchors and map at once, under the present numbers; the counts go on where the curves end."""
+        assert wanted.positions is not None
+        command = take_up(wanted.session, wanted.positions, generation, self.anchor_serial, self.problem_serial)
+        if wanted.curves is not None:
+            command = replace(command, iteration=wanted.curves.iteration, seconds=wanted.curves.seconds)
+        self._bridge.post(command)
 
     def start(self, session: Session) -> None:
         parameters = dict(session.initializer_parameters)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -53,6 +53,11 @@ class Switches:
         """The history begins anew."""
         self._found.clear()
         self._session = self._document.session
+
+    def go_back(self, switches: Iterable[Switch]) -> None:
+        """Those of an earlier moment, with its choices."""
+        self.clear()
+        self._found.extend(switches)
 
     def _take(self) -> None:
         session = self._document.session

@@ -211,7 +211,7 @@ class EngineLoop:
         held.anchors.check(problem.mesh.vertex_count, problem.dimension)
         self._choices, self._solver_choice, self._anchors, self._problem = choices, command.solver, held, problem
         self._budget.rest()
-        self._boundary_positions, self._seconds = None, 0.0
+        self._boundary_positions, self._seconds = None, command.seconds
         self._start_from(command.positions, command.iteration)
 
     def _start_from(self, start: Floats, iteration: int, origin: str = "map") -> None:

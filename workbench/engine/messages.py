@@ -148,7 +148,8 @@ class TakeMap(Command):
 class TakeUp(Command):
     """Go on with all of these at once: what an undo, or a session that was opened, brings back. The map rests.
 
-    Dropped where `generation` is another mesh's; refused as a whole where the problem, the solver or the anchors are.
+    `iteration` and `seconds` are what had led to the map. Dropped where `generation` is another mesh's; refused as a whole
+    where the problem, the solver or the anchors are.
     """
 
     generation: int
@@ -157,6 +158,7 @@ class TakeUp(Command):
     solver: SetSolver
     anchors: SetAnchors
     iteration: int = 0
+    seconds: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

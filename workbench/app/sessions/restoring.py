@@ -8,17 +8,22 @@ from math import inf
 from typing import Any
 
 from workbench.app.anchor_set import AnchorSet
+from workbench.app.history import Curves
 from workbench.core.arrays import Floats
 from workbench.session.session import ANCHORS, Session
 
 
 @dataclass(frozen=True, eq=False)
 class Wanted:
-    """A state to go to once its mesh is open: choices with anchors, a map (or the start), and whether the solver runs."""
+    """A state to go to once its mesh is open: choices with anchors, a map (or the start), and whether the solver runs.
+
+    `curves` are those that led to the map, where they are known.
+    """
 
     session: Session
     positions: Floats | None
     runs: bool = False
+    curves: Curves | None = None
 
 
 def with_anchors(session: Session, anchors: AnchorSet) -> Session:

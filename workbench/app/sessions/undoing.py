@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.background import Background
 from workbench.app.document import Document
+from workbench.app.history import Curves
 from workbench.app.reporter import source_name
 from workbench.app.sessions.restoring import is_on_same_source, with_anchors
 from workbench.app.switches import switched
@@ -43,17 +44,22 @@ NAMES = {
 
 @dataclass(frozen=True)
 class Chosen:
-    """What a step may change: choices, anchors, and whether the solver ran."""
+    """What a step may change: choices, anchors, and whether the solver ran; with the curves that led to the map."""
 
     session: Session
     anchors: AnchorSet
     runs: bool
+    curves: Curves | None = None
 
 
-def anchor_bytes(moments: Iterable[Chosen]) -> int:
-    """What the anchors of moments take, each set of them once."""
-    sets = {id(moment.anchors): len(moment.anchors) for moment in moments}
-    return ANCHOR_BYTES * sum(sets.values())
+def chosen_bytes(moments: Iterable[Chosen]) -> int:
+    """What the anchors and curves of moments take, each set and table of them once."""
+    sets, tables = dict[int, int](), dict[int, int]()
+    for moment in moments:
+        sets[id(moment.anchors)] = len(moment.anchors)
+        if moment.curves is not None:
+            tables[id(moment.curves.table)] = moment.curves.table.nbytes
+    return ANCHOR_BYTES * sum(sets.values()) + sum(tables.values())
 
 
 class Undoing(QObject):
@@ -66,11 +72,13 @@ class Undoing(QObject):
     def __init__(self, document: Document) -> None:
         super().__init__(document)
         self._document = document
-        self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round, anchor_bytes)
+        self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round, chosen_bytes)
         self._key, self._is_choice = "", False
         self._came_from = -1
         self._changed_at = 0.0
         self._packing: Background | None = None
+        self.curves: Callable[[], Curves | None] = lambda: None
+        """Those of the present map, for whoever keeps some."""
         document.changing.connect(self._begin_step)
         document.session_changed.connect(self._name_step)
         document.anchors_changed.connect(self._forget_if_nothing)
@@ -80,7 +88,7 @@ class Undoing(QObject):
     @property
     def _chosen(self) -> Chosen:
         document = self._document
-        return Chosen(document.session, document.anchors, document.wants_to_run)
+        return Chosen(document.session, document.anchors, document.wants_to_run, self.curves())
 
     # ------------------------------------------------------------------------------------------ steps
 
@@ -155,7 +163,8 @@ class Undoing(QObject):
         came_from = self.history.done
         moment = self.history.go_to(done, self._chosen, document.positions)
         chosen = moment.choices
-        document.restore(with_anchors(chosen.session, chosen.anchors), moment.positions, run=chosen.runs)
+        session = with_anchors(chosen.session, chosen.anchors)
+        document.restore(session, moment.positions, run=chosen.runs, curves=chosen.curves)
         self._came_from = came_from if document.opening_source else -1
         self.changed.emit()
         self.gone.emit()
