@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import csgraph
-from scipy.spatial.transform import Rotation
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 
@@ -40,8 +38,8 @@ def anchor_groups(simplices: Integers, anchored: Integers, numbers: Integers | N
     i, j = np.concatenate(heads), np.concatenate(tails)
     together = numbers[i] == numbers[j]
     i, j = i[together], j[together]
-    graph = sparse.coo_matrix((np.ones(len(i)), (i, j)), shape=(len(anchored), len(anchored)))
-    count, labels = csgraph.connected_components(graph, directed=False)
+    graph = scipy.sparse.coo_matrix((np.ones(len(i)), (i, j)), shape=(len(anchored), len(anchored)))
+    count, labels = scipy.sparse.csgraph.connected_components(graph, directed=False)
     order = np.argsort(labels, kind="stable")
     return np.split(order, np.searchsorted(labels[order], np.arange(1, count)))
 
@@ -79,7 +77,7 @@ def _turned(current: Floats, targets: Floats) -> Floats:
     translation = q.mean(axis=0) - rotation.apply(p.mean(axis=0))
     # What the rigid fit leaves over (a stretch, say) is walked in the body's own frame.
     body = p + part * (rotation.inv().apply(q - translation) - p)
-    turn = Rotation.from_rotvec(part * vector)
+    turn = scipy.spatial.transform.Rotation.from_rotvec(part * vector)
     slide = _screw_matrix(part * vector) @ np.linalg.solve(_screw_matrix(vector), translation) * part
     result: Floats = (turn.apply(body) + slide)[:, :d]
     return result
@@ -95,20 +93,20 @@ def twist_between(current: Floats, targets: Floats) -> Floats:
         return np.concatenate([np.zeros(3), shift])
     vector = _best_rotation(current, targets).as_rotvec()
     centre = _in_space(current).mean(axis=0)
-    translation = centre + shift - Rotation.from_rotvec(vector).apply(centre)
+    translation = centre + shift - scipy.spatial.transform.Rotation.from_rotvec(vector).apply(centre)
     return np.concatenate([vector, np.linalg.solve(_screw_matrix(vector), translation)])
 
 
-def _best_rotation(current: Floats, targets: Floats) -> Rotation:
+def _best_rotation(current: Floats, targets: Floats) -> scipy.spatial.transform.Rotation:
     """Rotation of the least-squares rigid fit (Kabsch)."""
     p, q = _in_space(current - current.mean(axis=0)), _in_space(targets - targets.mean(axis=0))
     if current.shape[1] == 2:
         covariance = p.T @ q
         angle = np.arctan2(covariance[0, 1] - covariance[1, 0], covariance[0, 0] + covariance[1, 1])
-        return Rotation.from_rotvec([0.0, 0.0, float(angle)])
+        return scipy.spatial.transform.Rotation.from_rotvec([0.0, 0.0, float(angle)])
     u, _, vt = np.linalg.svd(p.T @ q)
     sign = np.sign(np.linalg.det(u @ vt)) or 1.0
-    return Rotation.from_matrix((u @ np.diag([1.0, 1.0, sign]) @ vt).T)
+    return scipy.spatial.transform.Rotation.from_matrix((u @ np.diag([1.0, 1.0, sign]) @ vt).T)
 
 
 def _screw_matrix(vector: Floats) -> Floats:

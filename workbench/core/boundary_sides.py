@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.facets import facet_table
@@ -39,6 +38,6 @@ def boundary_sides(positions: Floats, edges: Integers, sharp: float = SHARP) -> 
     is_plain = (starts[edges[:, 1]] == 1) & (ends[edges[:, 1]] == 1)
     cosines = np.einsum("ij,ij->i", steps, steps[following])
     joined = np.flatnonzero(is_plain & (cosines > np.cos(np.radians(sharp))))
-    links = coo_array((np.ones(len(joined)), (joined, following[joined])), shape=(len(edges), len(edges)))
-    labels: Integers = connected_components(links, directed=False)[1].astype(np.int64)
+    links = scipy.sparse.coo_array((np.ones(len(joined)), (joined, following[joined])), shape=(len(edges), len(edges)))
+    labels: Integers = scipy.sparse.csgraph.connected_components(links, directed=False)[1].astype(np.int64)
     return labels

@@ -12,8 +12,7 @@ from __future__ import annotations
 
 import numba
 import numpy as np
-from scipy import sparse
-from scipy.sparse import csgraph
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.linear_back_end import LinearSolver, SingularMatrixError
@@ -50,9 +49,11 @@ class ConjugateGradients(LinearSolver):
         rows, columns = pattern.rows[first] // d, pattern.columns[first] // d
         below = rows != columns
         first, rows, columns = first[below], rows[below], columns[below]
-        graph = sparse.csr_matrix((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(count, count))
+        graph = scipy.sparse.csr_matrix((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(count, count))
         # A front that sweeps through the solid: neighbours stay near in memory, and the incomplete factor loses less.
-        self._order = csgraph.reverse_cuthill_mckee(sparse.csr_matrix(graph + graph.T), symmetric_mode=True).astype(np.int64)
+        self._order = scipy.sparse.csgraph.reverse_cuthill_mckee(
+            scipy.sparse.csr_matrix(graph + graph.T), symmetric_mode=True
+        ).astype(np.int64)
         place = np.empty(count, dtype=np.int64)
         place[self._order] = np.arange(count)
         self._lower_entries, self._starts, self._columns = _lower_blocks(pattern, first, rows, columns, place)

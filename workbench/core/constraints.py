@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-import scipy.sparse.linalg
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.errors import WorkbenchError
@@ -119,12 +118,12 @@ class LinearConstraints:
     values : (p,) float64
     """
 
-    matrix: sparse.csr_matrix
+    matrix: scipy.sparse.csr_matrix
     values: Floats
     _kept: list[tuple[Integers, LinearConstraints]] = field(default_factory=list, init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "matrix", sparse.csr_matrix(self.matrix, dtype=np.float64))
+        object.__setattr__(self, "matrix", scipy.sparse.csr_matrix(self.matrix, dtype=np.float64))
         object.__setattr__(self, "values", frozen(np.asarray(self.values).reshape(-1)))
         if self.matrix.shape[0] != len(self.values):
             raise WorkbenchError(f"Linear constraints: {self.matrix.shape[0]} rows, {len(self.values)} values.")
@@ -147,7 +146,7 @@ class LinearConstraints:
         free = np.ones(self.matrix.shape[1])
         free[still] = 0.0
         lengths = scipy.sparse.linalg.norm(self.matrix, axis=1)
-        moving = sparse.csr_matrix(self.matrix @ sparse.diags(free))
+        moving = scipy.sparse.csr_matrix(self.matrix @ scipy.sparse.diags(free))
         rows = moving[:, np.unique(moving.indices)].toarray()
         basis = np.empty_like(rows)
         found: list[int] = []
@@ -169,8 +168,8 @@ class LinearConstraints:
         free = np.ones(direction.shape)
         free[held] = 0.0
         flat = direction.reshape(-1)
-        rows = self.matrix @ sparse.diags(free.reshape(-1))
-        corrections = rows if inverse_metric is None else rows @ sparse.diags(inverse_metric.reshape(-1))
+        rows = self.matrix @ scipy.sparse.diags(free.reshape(-1))
+        corrections = rows if inverse_metric is None else rows @ scipy.sparse.diags(inverse_metric.reshape(-1))
         multipliers = np.linalg.lstsq((rows @ corrections.T).toarray(), rows @ flat, rcond=None)[0]
         result: Floats = (flat - corrections.T @ multipliers).reshape(direction.shape)
         return result

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.definite_solve import solve_with_fixed
@@ -26,7 +26,7 @@ _ROUNDS = 16
 _SMALLEST_STRETCH = 1e-18
 
 
-def laplacian(simplices: Integers, weights: Floats, vertex_count: int) -> sparse.csr_matrix:
+def laplacian(simplices: Integers, weights: Floats, vertex_count: int) -> scipy.sparse.csr_matrix:
     """Matrix of sum_ij w_ij |x_i - x_j|^2.
 
     Parameters
@@ -41,10 +41,10 @@ def laplacian(simplices: Integers, weights: Floats, vertex_count: int) -> sparse
     tails, heads = simplices[:, [1, 2, 0]].ravel(), simplices[:, [2, 0, 1]].ravel()
     ones = weights.ravel()
     shape = (vertex_count, vertex_count)
-    adjacency = sparse.coo_matrix((ones, (tails, heads)), shape=shape).tocsr()
+    adjacency = scipy.sparse.coo_matrix((ones, (tails, heads)), shape=shape).tocsr()
     adjacency = adjacency + adjacency.T
     degrees = np.asarray(adjacency.sum(axis=1)).ravel()
-    return sparse.csr_matrix(sparse.diags(degrees) - adjacency)
+    return scipy.sparse.csr_matrix(scipy.sparse.diags(degrees) - adjacency)
 
 
 def uniform_weights(mesh: Mesh) -> Floats:

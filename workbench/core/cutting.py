@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
+import scipy
 
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.facets import FacetTable, corner_classes, facet_table, simplex_components, split_vertices
@@ -76,14 +75,16 @@ def _sphere_cut(vertices: Floats, table: FacetTable) -> Integers:
     edges = table.sides[table.first]
     lengths = np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1)
     lengths = np.maximum(lengths, np.finfo(np.float64).tiny)  # a stored zero is no edge to the sparse graph
-    graph = csr_array((lengths, (edges[:, 0], edges[:, 1])), shape=(len(vertices), len(vertices)))
-    distance = dijkstra(graph, directed=False, indices=0)
+    graph = scipy.sparse.csr_array((lengths, (edges[:, 0], edges[:, 1])), shape=(len(vertices), len(vertices)))
+    distance = scipy.sparse.csgraph.dijkstra(graph, directed=False, indices=0)
     first = int(distance.argmax())
     tree = [first]
     cut: list[tuple[int, int]] = []
     longest = 0.0
     for _ in range(MOST_BRANCHES):
-        distance, before, _ = dijkstra(graph, directed=False, indices=tree, min_only=True, return_predecessors=True)
+        distance, before, _ = scipy.sparse.csgraph.dijkstra(
+            graph, directed=False, indices=tree, min_only=True, return_predecessors=True
+        )
         vertex = int(distance.argmax())
         if distance[vertex] < BRANCH_RATIO * longest or vertex in tree:
             break

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_matrix
@@ -29,17 +29,17 @@ class DefiniteFactor:
     """
 
     def __init__(self, matrix: Any, order: Integers | None = None) -> None:
-        matrix = sparse.csc_matrix(matrix)
+        matrix = scipy.sparse.csc_matrix(matrix)
         diagonal = matrix.diagonal()
         if not (diagonal > 0).all():
             raise WorkbenchError(_SINGULAR)
         self._scale = 1.0 / np.sqrt(diagonal)
-        scaling = sparse.diags(self._scale)
-        self._matrix = sparse.csc_matrix(scaling @ matrix @ scaling)
-        lower = sparse.tril(self._matrix, format="csc")
+        scaling = scipy.sparse.diags(self._scale)
+        self._matrix = scipy.sparse.csc_matrix(scaling @ matrix @ scaling)
+        lower = scipy.sparse.tril(self._matrix, format="csc")
         lower.sort_indices()
         if order is None:
-            order = elimination_order(sparse.csr_matrix(self._matrix - sparse.diags(self._matrix.diagonal())))
+            order = elimination_order(scipy.sparse.csr_matrix(self._matrix - scipy.sparse.diags(self._matrix.diagonal())))
         starts, rows = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
         self._factor = CholeskyFactor(analyse_matrix(starts, rows, 1, np.asarray(order, dtype=np.int64)))
         try:
@@ -73,7 +73,7 @@ def solve_with_fixed(matrix: Any, fixed: np.ndarray, values: Floats, order: Inte
     -------
     (N, c) float64
     """
-    matrix = sparse.csr_matrix(matrix)
+    matrix = scipy.sparse.csr_matrix(matrix)
     is_free = np.ones(matrix.shape[0], dtype=bool)
     is_free[fixed] = False
     free = np.flatnonzero(is_free)

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.refine.edge_table import edges_of_faces, edges_of_tetrahedra
@@ -39,25 +38,27 @@ class EdgeGraph:
         return np.asarray(np.linalg.norm(self.vertices[a] - self.vertices[b], axis=1))
 
     @cached_property
-    def _matrix(self) -> csr_array:
+    def _matrix(self) -> scipy.sparse.csr_array:
         a, b = self.edges.T
         # a length of 0 would count as no edge
         lengths = np.maximum(self.lengths, np.finfo(np.float64).tiny)
-        return csr_array((lengths, (a, b)), shape=(len(self.vertices),) * 2)
+        return scipy.sparse.csr_array((lengths, (a, b)), shape=(len(self.vertices),) * 2)
 
     def distances(self, starts: Integers) -> Floats:
         """(n,) length of the shortest path along edges from the nearest of `starts` (k,); inf where there is none."""
-        found: Floats = dijkstra(self._matrix, directed=False, indices=starts, min_only=True)
+        found: Floats = scipy.sparse.csgraph.dijkstra(self._matrix, directed=False, indices=starts, min_only=True)
         return found
 
     def nearest(self, starts: Integers) -> Integers:
         """(n,) int64: the one of `starts` (k,) that is nearest along edges; -1 where none can be reached."""
-        found = dijkstra(self._matrix, directed=False, indices=starts, min_only=True, return_predecessors=True)[2]
+        found = scipy.sparse.csgraph.dijkstra(
+            self._matrix, directed=False, indices=starts, min_only=True, return_predecessors=True
+        )[2]
         return np.where(found < 0, -1, found).astype(np.int64)
 
     def paths_from(self, start: int) -> PathTree:
         """Shortest paths from one vertex to all others."""
-        before = dijkstra(self._matrix, directed=False, indices=start, return_predecessors=True)[1]
+        before = scipy.sparse.csgraph.dijkstra(self._matrix, directed=False, indices=start, return_predecessors=True)[1]
         return PathTree(start, before.astype(np.int64))
 
 

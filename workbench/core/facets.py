@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from workbench.core.arrays import Booleans, Integers
 
@@ -179,6 +178,6 @@ def _permutation_signs(order: Integers) -> Integers:
 
 def _components(count: int, links: Integers) -> tuple[int, Integers]:
     ones = np.ones(len(links), dtype=np.int8)
-    graph = coo_array((ones, (links[:, 0], links[:, 1])), shape=(count, count)).tocsr()
-    found, labels = connected_components(graph, directed=False)
+    graph = scipy.sparse.coo_array((ones, (links[:, 0], links[:, 1])), shape=(count, count)).tocsr()
+    found, labels = scipy.sparse.csgraph.connected_components(graph, directed=False)
     return int(found), labels.astype(np.int64)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.constraints import LinearConstraints
 from workbench.core.errors import WorkbenchError
@@ -150,4 +150,4 @@ def linear_constraints(equations: Sequence[str], vertex_count: int, dimension: i
             factors.append(factor)
         values.append(equation.value)
     shape = (len(equations), vertex_count * dimension)
-    return LinearConstraints(sparse.csr_matrix((factors, (rows, columns)), shape), np.array(values))
+    return LinearConstraints(scipy.sparse.csr_matrix((factors, (rows, columns)), shape), np.array(values))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.convex_map import cotangent_weights, laplacian
@@ -20,7 +20,7 @@ def signed_areas(positions: Floats, simplices: Integers) -> Floats:
     return areas
 
 
-def dirichlet_matrix(mesh: Mesh) -> sparse.csr_matrix:
+def dirichlet_matrix(mesh: Mesh) -> scipy.sparse.csr_matrix:
     """(n, n) matrix of the Dirichlet energy (25) of one coordinate, weighted with rest areas or volumes."""
     if mesh.dimension == 2:
         return laplacian(mesh.simplices, cotangent_weights(mesh), mesh.vertex_count)
@@ -31,7 +31,7 @@ def dirichlet_matrix(mesh: Mesh) -> sparse.csr_matrix:
     rows = np.repeat(mesh.simplices, width, axis=1).ravel()
     columns = np.tile(mesh.simplices, (1, width)).ravel()
     shape = (mesh.vertex_count, mesh.vertex_count)
-    return sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=shape).tocsr()
+    return scipy.sparse.coo_matrix((blocks.ravel(), (rows, columns)), shape=shape).tocsr()
 
 
 def harmonic_extension(mesh: Mesh, fixed: Integers) -> Floats:
@@ -39,7 +39,7 @@ def harmonic_extension(mesh: Mesh, fixed: Integers) -> Floats:
     return solve_with_fixed(dirichlet_matrix(mesh), fixed, mesh.vertices[fixed], mesh.elimination_order)
 
 
-def conformal_energy(mesh: Mesh) -> sparse.csr_matrix:
+def conformal_energy(mesh: Mesh) -> scipy.sparse.csr_matrix:
     """Matrix of the conformal energy of a map of a surface to the plane: Dirichlet energy less twice the area.
 
     Returns
@@ -48,7 +48,7 @@ def conformal_energy(mesh: Mesh) -> sparse.csr_matrix:
 
     Source: Levy et al. 2002, in the form of Mullen et al. 2008.
     """
-    dirichlet = sparse.coo_matrix(dirichlet_matrix(mesh))
+    dirichlet = scipy.sparse.coo_matrix(dirichlet_matrix(mesh))
     size = 2 * mesh.vertex_count
     edges = mesh.topology.boundary_facets
     tails, heads = 2 * edges[:, 0], 2 * edges[:, 1]
@@ -57,7 +57,7 @@ def conformal_energy(mesh: Mesh) -> sparse.csr_matrix:
     rows = np.concatenate([2 * dirichlet.row, 2 * dirichlet.row + 1, tails, heads + 1, tails + 1, heads])
     columns = np.concatenate([2 * dirichlet.col, 2 * dirichlet.col + 1, heads + 1, tails, heads, tails + 1])
     values = np.concatenate([dirichlet.data, dirichlet.data, -half, -half, half, half])
-    return sparse.coo_matrix((values, (rows, columns)), shape=(size, size)).tocsr()
+    return scipy.sparse.coo_matrix((values, (rows, columns)), shape=(size, size)).tocsr()
 
 
 def upright(mesh: Mesh) -> Mesh:

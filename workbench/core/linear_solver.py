@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse import linalg
+import scipy
 
 from workbench.core.arrays import Floats
 from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_pattern
@@ -59,22 +58,22 @@ class SuperLU(LinearSolver):
     name = "superlu"
 
     def __init__(self, pattern: HessianPattern) -> None:
-        lower = sparse.csc_matrix(
+        lower = scipy.sparse.csc_matrix(
             (np.arange(1, pattern.entry_count + 1, dtype=np.float64), pattern.rows, pattern.column_starts),
             shape=(pattern.size, pattern.size),
         )
-        full = sparse.csc_matrix(lower + sparse.tril(lower, -1).T)
+        full = scipy.sparse.csc_matrix(lower + scipy.sparse.tril(lower, -1).T)
         full.sort_indices()
         # Each value of the full matrix knows which entry of the lower triangle it comes from.
         self._source = full.data.astype(np.int64) - 1
         self._matrix = full
-        self._factor: linalg.SuperLU | None = None
+        self._factor: scipy.sparse.linalg.SuperLU | None = None
 
     def factorise(self, values: Floats) -> None:
         self._matrix.data = values[self._source]
         options = {"SymmetricMode": True}
         try:
-            self._factor = linalg.splu(self._matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
+            self._factor = scipy.sparse.linalg.splu(self._matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options=options)
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from None
 
@@ -96,7 +95,7 @@ class Pardiso(LinearSolver):
         for place, value in {1: 1, 2: 2, 24: 1}.items():  # own settings, METIS, factorisation in parallel at two levels
             self._solver.set_iparm(place, value)
         # PARDISO takes the upper triangle by rows: that is the lower triangle by columns.
-        self._matrix = sparse.csr_matrix(
+        self._matrix = scipy.sparse.csr_matrix(
             (np.ones(pattern.entry_count), pattern.rows, pattern.column_starts), shape=(pattern.size, pattern.size)
         )
         self._analysed = False

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from workbench.core.arrays import Booleans, Integers
 from workbench.core.facets import FacetTable
@@ -29,8 +28,8 @@ def orientation_sheets(table: FacetTable, simplex_count: int) -> tuple[bool, boo
     turned = np.where(agree, 0, simplex_count)
     tails = np.concatenate([left, left + simplex_count])
     heads = np.concatenate([right + turned, right + (simplex_count - turned)])
-    graph = coo_array((np.ones(len(tails), np.int8), (tails, heads)), shape=(2 * simplex_count, 2 * simplex_count))
-    _, labels = connected_components(graph.tocsr(), directed=False)
+    graph = scipy.sparse.coo_array((np.ones(len(tails), np.int8), (tails, heads)), shape=(2 * simplex_count, 2 * simplex_count))
+    _, labels = scipy.sparse.csgraph.connected_components(graph.tocsr(), directed=False)
     sheets = labels.astype(np.int64).reshape(2, simplex_count)
     return not bool((sheets[0] == sheets[1]).any()), is_consistent, sheets
 

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numba
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.cholmod_library import load_cvxopt
@@ -64,15 +64,15 @@ class HessianPattern:
         _gather_rows(np.ascontiguousarray(values).reshape(-1, self.dimension), self.place, out)
         return out
 
-    def matrix(self, values: Floats) -> sparse.csc_matrix:
+    def matrix(self, values: Floats) -> scipy.sparse.csc_matrix:
         """The full symmetric matrix by vertex (coordinates of a vertex together), for tests and other solvers."""
         d = self.dimension
         dof = (self.order[:, None] * d + np.arange(d)).reshape(-1)
         rows, columns = dof[self.rows], dof[self.columns]
-        lower = sparse.coo_matrix((values, (rows, columns)), shape=(self.size, self.size))
+        lower = scipy.sparse.coo_matrix((values, (rows, columns)), shape=(self.size, self.size))
         off = rows != columns
-        upper = sparse.coo_matrix((values[off], (columns[off], rows[off])), shape=(self.size, self.size))
-        return sparse.csc_matrix(lower + upper)
+        upper = scipy.sparse.coo_matrix((values[off], (columns[off], rows[off])), shape=(self.size, self.size))
+        return scipy.sparse.csc_matrix(lower + upper)
 
     def multiply(self, values: Floats, vector: Floats) -> Floats:
         """Symmetric product, (dN,) in and out in the order of the matrix."""
@@ -81,19 +81,19 @@ class HessianPattern:
         return out
 
 
-def vertex_graph(simplices: Integers, vertex_count: int) -> sparse.csr_matrix:
+def vertex_graph(simplices: Integers, vertex_count: int) -> scipy.sparse.csr_matrix:
     """Symmetric adjacency of the vertices (pattern only), indices sorted, no diagonal."""
     width = simplices.shape[1]
     pairs = [(a, b) for a in range(width) for b in range(width) if a != b]
     rows = np.concatenate([simplices[:, a] for a, _ in pairs])
     columns = np.concatenate([simplices[:, b] for _, b in pairs])
-    graph = sparse.csr_matrix((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count))
+    graph = scipy.sparse.csr_matrix((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count))
     graph.sum_duplicates()
     graph.sort_indices()
     return graph
 
 
-def elimination_order(graph: sparse.csr_matrix) -> Integers:
+def elimination_order(graph: scipy.sparse.csr_matrix) -> Integers:
     """Nested dissection of the vertices by METIS, or minimum degree where METIS is missing."""
     try:
         import pymetis
@@ -105,15 +105,15 @@ def elimination_order(graph: sparse.csr_matrix) -> Integers:
     return result
 
 
-def _minimum_degree_order(graph: sparse.csr_matrix) -> Integers:
+def _minimum_degree_order(graph: scipy.sparse.csr_matrix) -> Integers:
     try:
         cvxopt = load_cvxopt()
-        coordinates = sparse.coo_matrix(graph + sparse.identity(graph.shape[0], format="csr"))
+        coordinates = scipy.sparse.coo_matrix(graph + scipy.sparse.identity(graph.shape[0], format="csr"))
         lower = coordinates.row >= coordinates.col
         matrix = cvxopt.spmatrix(1.0, coordinates.row[lower].tolist(), coordinates.col[lower].tolist(), graph.shape, tc="d")
         return np.array(cvxopt.amd.order(matrix, "L"), dtype=np.int64).reshape(-1)
     except ImportError:
-        return np.asarray(sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True), dtype=np.int64)
+        return np.asarray(scipy.sparse.csgraph.reverse_cuthill_mckee(graph, symmetric_mode=True), dtype=np.int64)
 
 
 def build_pattern(simplices: Integers, vertex_count: int, dimension: int, order: Integers | None = None) -> HessianPattern:

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Booleans, Floats
 from workbench.core.constraints import Anchors, LinearConstraints
@@ -289,7 +289,7 @@ class Problem:
         """(N, d) gradient of `energy`."""
         return self.evaluate(np.ascontiguousarray(positions, dtype=np.float64), 1).gradient
 
-    def hessian(self, positions: Floats, *, project: bool = True) -> sparse.csc_matrix:
+    def hessian(self, positions: Floats, *, project: bool = True) -> scipy.sparse.csc_matrix:
         """(N d, N d) Hessian of `energy`, coordinates of a vertex together; positive semi-definite where projected."""
         result = self.evaluate(np.ascontiguousarray(positions, dtype=np.float64), 2, project=project)
         assert result.hessian_values is not None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from itertools import permutations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 
@@ -37,7 +37,7 @@ def relaxed(
         return positions
     size = len(positions)
     pairs = np.concatenate([simplices[:, list(pair)] for pair in permutations(range(simplices.shape[1]), 2)])
-    links = sparse.coo_matrix((np.ones(len(pairs)), pairs.T), shape=(size, size)).tocsr()
+    links = scipy.sparse.coo_matrix((np.ones(len(pairs)), pairs.T), shape=(size, size)).tocsr()
     links.data[:] = 1.0
     degrees = np.maximum(np.asarray(links.sum(axis=1)), 1.0)
     may_move = np.ones(size, dtype=bool)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import linprog
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
@@ -130,7 +130,9 @@ def _seeing_point(surface: Mesh) -> tuple[Floats, float]:
     middle = surface.vertices.mean(axis=0)
     offsets = np.einsum("ij,ij->i", normals, corners[lengths > 0.0, 0] - middle) / surface.diameter
     rows = np.column_stack([normals, np.ones(len(normals))])
-    solved = linprog([0.0, 0.0, 0.0, -1.0], A_ub=rows, b_ub=offsets, bounds=[(-1.0, 1.0)] * 3 + [(-2.0, 1.0)], method="highs")
+    solved = scipy.optimize.linprog(
+        [0.0, 0.0, 0.0, -1.0], A_ub=rows, b_ub=offsets, bounds=[(-1.0, 1.0)] * 3 + [(-2.0, 1.0)], method="highs"
+    )
     if solved.x is None:
         return middle, -np.inf
     return middle + solved.x[:3] * surface.diameter, float(solved.x[3]) * surface.diameter

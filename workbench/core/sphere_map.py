@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.convex_map import cotangent_weights, laplacian
@@ -181,7 +181,7 @@ def _off_origin(plane: Floats) -> Floats:
     return np.where(np.abs(plane) < 1e-12, 1e-12, plane)
 
 
-def _solved_half(matrix: sparse.csr_matrix, plane: Floats, order: Integers) -> Floats:
+def _solved_half(matrix: scipy.sparse.csr_matrix, plane: Floats, order: Integers) -> Floats:
     held = np.flatnonzero(np.abs(plane) >= _CAP)
     places = np.stack([plane[held].real, plane[held].imag], axis=1)
     return solve_with_fixed(matrix, held, places, order) @ np.array([1.0, 1j])

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.facets import facet_table
@@ -36,6 +35,6 @@ def surface_patches(positions: Floats, triangles: Integers, sharp: float = SHARP
     cosines = np.einsum("ij,ij->i", normals[neighbours[:, 0]], normals[neighbours[:, 1]])
     joined = neighbours[cosines > np.cos(np.radians(sharp))]  # a NaN joins nothing
     count = len(triangles)
-    links = coo_array((np.ones(len(joined)), (joined[:, 0], joined[:, 1])), shape=(count, count))
-    labels: Integers = connected_components(links, directed=False)[1].astype(np.int64)
+    links = scipy.sparse.coo_array((np.ones(len(joined)), (joined[:, 0], joined[:, 1])), shape=(count, count))
+    labels: Integers = scipy.sparse.csgraph.connected_components(links, directed=False)[1].astype(np.int64)
     return labels

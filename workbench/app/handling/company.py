@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from PySide6.QtCore import QObject, Signal
-from scipy.spatial import cKDTree
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.document import Document
@@ -87,7 +87,7 @@ class Company(QObject):
 
     def _forget(self) -> None:
         self._graph: EdgeGraph | None = None
-        self._tree: cKDTree | None = None
+        self._tree: scipy.spatial.cKDTree | None = None
         self._planes: dict[str, Reflection] = {}
         self._pairs: tuple[str, Integers] | None = None
         self.changed.emit()
@@ -150,7 +150,7 @@ class Company(QObject):
         mesh = self._document.mesh
         assert mesh is not None
         if self._tree is None:
-            self._tree = cKDTree(mesh.vertices)
+            self._tree = scipy.spatial.cKDTree(mesh.vertices)
         return Twins(mesh.vertices, plane, self._tree)
 
     # ------------------------------------------------------------------------------------------ gathering
@@ -179,7 +179,7 @@ class Company(QObject):
         mesh = self._document.mesh
         assert mesh is not None
         if not self.customs.along_edges:
-            return np.asarray(cKDTree(mesh.vertices[starts]).query(mesh.vertices)[0])
+            return np.asarray(scipy.spatial.cKDTree(mesh.vertices[starts]).query(mesh.vertices)[0])
         if self._graph is None:
             self._graph = EdgeGraph(mesh.vertices, mesh.simplices)
         return self._graph.distances(starts)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import scipy
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import connected_components
 
 from workbench.app.anchor_tool import AnchorTool
 from workbench.app.handling.key_trap import KeyTrap
@@ -175,8 +174,8 @@ class Pinning(QObject):
             if not len(self._facets):
                 return False
             edges = EdgeGraph(mesh.vertices, self._facets).edges
-            links = csr_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(mesh.vertex_count,) * 2)
-            self._labels = connected_components(links, directed=False)[1]
+            links = scipy.sparse.csr_array((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(mesh.vertex_count,) * 2)
+            self._labels = scipy.sparse.csgraph.connected_components(links, directed=False)[1]
             self._nearest = self._all_edges().nearest(np.unique(self._facets))
         return True
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 
@@ -42,8 +42,8 @@ class Twins:
     reflection : of them
     """
 
-    def __init__(self, vertices: Floats, reflection: Reflection, tree: cKDTree | None = None) -> None:
-        self._tree = cKDTree(vertices) if tree is None else tree
+    def __init__(self, vertices: Floats, reflection: Reflection, tree: scipy.spatial.cKDTree | None = None) -> None:
+        self._tree = scipy.spatial.cKDTree(vertices) if tree is None else tree
         self._vertices = vertices
         self.reflection = reflection
         self.count = len(vertices)
@@ -67,7 +67,7 @@ def found_plane(vertices: Floats) -> Reflection:
     axes = np.linalg.eigh(np.cov((vertices - centre).T))[1].T
     candidates = [Reflection.across(axis, centre) for axis in axes]
     candidates += [*planes_of_box(vertices).values(), *(Reflection.across(axis, centre) for axis in np.eye(len(centre)))]
-    tree = cKDTree(vertices)
+    tree = scipy.spatial.cKDTree(vertices)
     some = vertices[:: max(1, len(vertices) // 2000)]
     return min(candidates, key=lambda plane: float(np.mean(tree.query(plane.of(some))[0] ** 2)))
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Integers
 from workbench.core.refine.edge_table import edges_of_faces, weights_of_rows
 from workbench.core.refine.smooth_boundary import at_vertices, neighbours
 
 
-def catmull_clark_step(faces: Integers, vertex_count: int) -> tuple[Integers, sparse.csr_array]:
+def catmull_clark_step(faces: Integers, vertex_count: int) -> tuple[Integers, scipy.sparse.csr_array]:
     """One level: a quadrilateral for each corner of each face.
 
     Parameters
@@ -32,20 +32,20 @@ def catmull_clark_step(faces: Integers, vertex_count: int) -> tuple[Integers, sp
     count = np.maximum(faces_at, 1.0)
     face_of_side = np.repeat(np.arange(len(faces)), size)
     ones = np.ones(faces.size)
-    at = sparse.csr_array((ones, (faces.ravel(), face_of_side)), shape=(vertex_count, len(faces)))
-    beside = sparse.csr_array((ones, (edges.numbers.ravel(), face_of_side)), shape=(edges.edge_count, len(faces)))
+    at = scipy.sparse.csr_array((ones, (faces.ravel(), face_of_side)), shape=(vertex_count, len(faces)))
+    beside = scipy.sparse.csr_array((ones, (edges.numbers.ravel(), face_of_side)), shape=(edges.edge_count, len(faces)))
     # inside, with n faces: (mean of the face points + 2 mean of the edges' middles + (n - 3) itself) / n
     around = neighbours(edges)
     own = (count - 2.0) / count
-    others = sparse.diags_array(1.0 / count**2) @ (at @ centres + around)
+    others = scipy.sparse.diags_array(1.0 / count**2) @ (at @ centres + around)
     old = at_vertices(edges, is_boundary, own, others, faces_at)
     inside = 0.5 * edges.midpoints() + 0.25 * (beside @ centres)
-    is_inside = sparse.diags_array((~is_boundary).astype(np.float64))
-    middle = is_inside @ inside + sparse.diags_array(is_boundary.astype(np.float64)) @ edges.midpoints()
+    is_inside = scipy.sparse.diags_array((~is_boundary).astype(np.float64))
+    middle = is_inside @ inside + scipy.sparse.diags_array(is_boundary.astype(np.float64)) @ edges.midpoints()
     after = edges.numbers + vertex_count
     centre = np.broadcast_to(vertex_count + edges.edge_count + np.arange(len(faces))[:, None], faces.shape)
     children = np.stack([faces, after, centre, np.roll(after, 1, axis=1)], axis=2).reshape(-1, 4)
-    return children, sparse.csr_array(sparse.vstack([old, middle, centres]))
+    return children, scipy.sparse.csr_array(scipy.sparse.vstack([old, middle, centres]))
 
 
 def split_quadrilaterals(quadrilaterals: Integers) -> Integers:

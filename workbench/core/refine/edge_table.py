@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.errors import MeshError
@@ -31,7 +31,7 @@ class EdgeTable:
     def edge_count(self) -> int:
         return len(self.ends)
 
-    def midpoints(self) -> sparse.csr_array:
+    def midpoints(self) -> scipy.sparse.csr_array:
         """(e, n) weights: the middle of each edge."""
         return weights_of_rows(self.ends, np.full(self.ends.shape, 0.5), self.vertex_count)
 
@@ -58,12 +58,12 @@ def edges_of_tetrahedra(tetrahedra: Integers, vertex_count: int) -> EdgeTable:
     return _edge_table(tetrahedra[:, list(combinations(range(4), 2))], vertex_count)
 
 
-def weights_of_rows(columns: Integers, weights: Floats, column_count: int) -> sparse.csr_array:
+def weights_of_rows(columns: Integers, weights: Floats, column_count: int) -> scipy.sparse.csr_array:
     """(r, column_count) sparse: row i has `weights[i]` at `columns[i]`, both (r, k)."""
     rows, width = columns.shape
     starts = np.arange(rows + 1) * width
     # a copy: sparse matrices sort their indices in place when it suits them
-    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=(rows, column_count), copy=True)
+    return scipy.sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=(rows, column_count), copy=True)
 
 
 def _edge_table(sides: Integers, vertex_count: int) -> EdgeTable:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.refine.edge_table import EdgeTable, edges_of_faces, edges_of_tetrahedra
@@ -19,7 +19,7 @@ AROUND = (
 )
 
 
-def halve_triangles(triangles: Integers, vertex_count: int) -> tuple[Integers, sparse.csr_array]:
+def halve_triangles(triangles: Integers, vertex_count: int) -> tuple[Integers, scipy.sparse.csr_array]:
     """Four triangles for each, rows 4 i to 4 i + 3 from triangle i, oriented as it is.
 
     Returns
@@ -30,7 +30,7 @@ def halve_triangles(triangles: Integers, vertex_count: int) -> tuple[Integers, s
     return quarter(triangles, edges), _with_midpoints(edges)
 
 
-def halve_tetrahedra(tetrahedra: Integers, vertices: Floats) -> tuple[Integers, sparse.csr_array]:
+def halve_tetrahedra(tetrahedra: Integers, vertices: Floats) -> tuple[Integers, scipy.sparse.csr_array]:
     """Eight tetrahedra for each, rows 8 i to 8 i + 7 from tetrahedron i, oriented as it is.
 
     The octahedron in the middle is split along its shortest diagonal in `vertices`, the first of those as short: this keeps
@@ -60,5 +60,5 @@ def quarter(triangles: Integers, edges: EdgeTable) -> Integers:
     return np.ascontiguousarray(children.reshape(-1, 3))
 
 
-def _with_midpoints(edges: EdgeTable) -> sparse.csr_array:
-    return sparse.vstack([sparse.eye_array(edges.vertex_count, format="csr"), edges.midpoints()], format="csr")
+def _with_midpoints(edges: EdgeTable) -> scipy.sparse.csr_array:
+    return scipy.sparse.vstack([scipy.sparse.eye_array(edges.vertex_count, format="csr"), edges.midpoints()], format="csr")

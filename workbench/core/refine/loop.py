@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.refine.edge_table import edges_of_faces, weights_of_rows
@@ -11,7 +11,7 @@ from workbench.core.refine.linear import quarter
 from workbench.core.refine.smooth_boundary import at_vertices, neighbours
 
 
-def loop_step(triangles: Integers, vertex_count: int) -> tuple[Integers, sparse.csr_array]:
+def loop_step(triangles: Integers, vertex_count: int) -> tuple[Integers, scipy.sparse.csr_array]:
     """One level: four triangles for each, as `halve_triangles` makes them.
 
     Returns
@@ -29,16 +29,16 @@ def loop_step(triangles: Integers, vertex_count: int) -> tuple[Integers, sparse.
     valence = np.diff(around.indptr).astype(np.float64)
     share = ring_weights(valence)
     faces = np.bincount(triangles.ravel(), minlength=vertex_count).astype(np.float64)
-    old = at_vertices(edges, is_boundary, 1.0 - valence * share, sparse.diags_array(share) @ around, faces)
+    old = at_vertices(edges, is_boundary, 1.0 - valence * share, scipy.sparse.diags_array(share) @ around, faces)
     # an edge inside: 3/8 of its ends and 1/8 of the corners across it
     opposite = np.roll(triangles, 1, axis=1)
-    across = sparse.coo_array(
+    across = scipy.sparse.coo_array(
         (np.full(triangles.size, 0.125), (edges.numbers.ravel(), opposite.ravel())), shape=(edges.edge_count, vertex_count)
     )
     inside = weights_of_rows(edges.ends, np.full(edges.ends.shape, 0.375), vertex_count) + across
-    is_inside = sparse.diags_array((~is_boundary).astype(np.float64))
-    middle = is_inside @ inside + sparse.diags_array(is_boundary.astype(np.float64)) @ edges.midpoints()
-    return quarter(triangles, edges), sparse.csr_array(sparse.vstack([old, middle]))
+    is_inside = scipy.sparse.diags_array((~is_boundary).astype(np.float64))
+    middle = is_inside @ inside + scipy.sparse.diags_array(is_boundary.astype(np.float64)) @ edges.midpoints()
+    return quarter(triangles, edges), scipy.sparse.csr_array(scipy.sparse.vstack([old, middle]))
 
 
 def ring_weights(valence: Floats) -> Floats:

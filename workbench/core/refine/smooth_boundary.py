@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from workbench.core.arrays import Booleans, Floats
 from workbench.core.refine.edge_table import EdgeTable
 
 
-def neighbours(edges: EdgeTable, among: Booleans | None = None) -> sparse.csr_array:
+def neighbours(edges: EdgeTable, among: Booleans | None = None) -> scipy.sparse.csr_array:
     """(n, n) ones: vertices joined by an edge, or by one of the edges `among` (e,)."""
     ends = edges.ends if among is None else edges.ends[among]
     size = edges.vertex_count
-    half = sparse.coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(size, size))
-    return sparse.csr_array(half + half.T)
+    half = scipy.sparse.coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(size, size))
+    return scipy.sparse.csr_array(half + half.T)
 
 
 def at_vertices(
-    edges: EdgeTable, is_boundary: Booleans, own: Floats, others: sparse.csr_array, faces: Floats
-) -> sparse.csr_array:
+    edges: EdgeTable, is_boundary: Booleans, own: Floats, others: scipy.sparse.csr_array, faces: Floats
+) -> scipy.sparse.csr_array:
     """(n, n) weights of the old vertices in their new places.
 
     Parameters
@@ -36,8 +36,8 @@ def at_vertices(
     is_inside = (boundary_valence == 0) & (faces > 0)
     is_on_curve = boundary_valence == 2
     kept = np.where(is_inside, own, np.where(is_on_curve, 0.75, 1.0))
-    return sparse.csr_array(
-        sparse.diags_array(kept)
-        + sparse.diags_array(is_inside.astype(np.float64)) @ others
-        + sparse.diags_array(np.where(is_on_curve, 0.125, 0.0)) @ along
+    return scipy.sparse.csr_array(
+        scipy.sparse.diags_array(kept)
+        + scipy.sparse.diags_array(is_inside.astype(np.float64)) @ others
+        + scipy.sparse.diags_array(np.where(is_on_curve, 0.125, 0.0)) @ along
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.spatial import Delaunay
+import scipy
 
 from workbench.core.arrays import Floats, Integers
 
@@ -86,7 +86,7 @@ def _hexagonal_lattice(low: Floats, high: Floats, spacing: float) -> Floats:
 
 
 def _inner_delaunay(implicit: Implicit, points: Floats, border_count: int) -> Integers:
-    simplices = Delaunay(points).simplices.astype(np.int64)
+    simplices = scipy.spatial.Delaunay(points).simplices.astype(np.int64)
     first, second = points[simplices[:, 1]] - points[simplices[:, 0]], points[simplices[:, 2]] - points[simplices[:, 0]]
     clockwise = first[:, 0] * second[:, 1] < first[:, 1] * second[:, 0]
     simplices[clockwise] = simplices[clockwise, ::-1]
