@@ -230,6 +230,45 @@ def test_cells_are_edited_one_by_one_and_many_at_once(window: MainWindow, dock: 
     qtbot.waitUntil(lambda: dock.model.data(dock.model.index(0, dock.model.place_of("weight"))) == "hard")
 
 
+def test_a_double_click_edits_the_cell_of_all_selected_rows(window: MainWindow, dock: AnchorDock) -> None:
+    document, viewport = window.document, dock.table.viewport()
+    before, count = document.anchors, len(steps(window))
+    click(dock, 0, "weight")
+    click(dock, 2, "y", Qt.KeyboardModifier.ControlModifier)
+    for row, column, text in ((0, "weight", "1.5"), (2, "y", "0.25")):
+        click(dock, row, column)
+        QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, cell_at(dock, row, column))
+        assert dock.table.chosen_rows.tolist() == [0, 2] and set(document.selection) == {4, 60}
+        editor = dock.table.findChild(QLineEdit)
+        assert editor is not None and editor.hasFocus()
+        editor.setText(text)
+        commit(editor)
+        QTest.qWait(20)
+        del editor
+        assert dock.table.chosen_rows.tolist() == [0, 2], "for the next cell"
+    assert document.anchors.weights == {4: 1.5, 60: 1.5}
+    assert [document.anchors.targets[v][1] for v in (4, 60)] == [0.25, 0.25]
+    assert document.anchors.targets[130] == before.targets[130]
+    assert steps(window)[count:] == ("Weight of 2 anchors", "Move 2 anchors")
+    click(dock, 2, "x")
+    assert set(document.selection) == {60}, "a click alone selects one row, as ever"
+    click(dock, 1, "x")
+    QTest.mouseDClick(viewport, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, cell_at(dock, 1, "x"))
+    assert set(document.selection) == {130}, "and so do two on a row that was not selected"
+    QTest.keyClick(dock.table.findChild(QLineEdit), Qt.Key.Key_Escape)
+
+
+def test_a_tick_in_a_selected_row_is_set_for_all_of_them(window: MainWindow, dock: AnchorDock) -> None:
+    document = window.document
+    click(dock, 0, "x")
+    click(dock, 1, "x", Qt.KeyboardModifier.ControlModifier)
+    place = cell_at(dock, 1, "on")
+    place.setX(dock.table.visualRect(dock.model.index(1, 0)).left() + 9)
+    for off in ({4, 130}, set()):
+        QTest.mouseClick(dock.table.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, place)
+        assert document.anchors.off == off and set(document.selection) == {4, 130}
+
+
 def test_letters_do_in_the_table_what_they_do_in_the_window(window: MainWindow, dock: AnchorDock) -> None:
     click(dock, 0, "x")
     before = window.document.anchors

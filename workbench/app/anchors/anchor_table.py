@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QEvent, QItemSelection, QItemSelectionModel, QItemSelectionRange, Qt, Signal
-from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QKeySequence, QPalette
+from PySide6.QtGui import QAction, QContextMenuEvent, QKeyEvent, QKeySequence, QMouseEvent, QPalette
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -41,6 +41,7 @@ class AnchorTable(QTableView):
         super().__init__(parent)
         self._model = model
         self._is_told = False
+        self._left: Integers | None = None
         self.setModel(model)
         self.setItemDelegate(_PaleWhereOff(model, self))
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -102,6 +103,33 @@ class AnchorTable(QTableView):
     def _selection_changed(self) -> None:
         if not self._is_told:
             self.chosen.emit()
+
+    # ------------------------------------------------------------------------------------------ mouse
+
+    def _is_plain_on_several(self, index: Index, event: QEvent | None) -> bool:
+        """Whether a mouse without keys is on one of several selected rows."""
+        if not isinstance(event, QMouseEvent) or event.modifiers() != Qt.KeyboardModifier.NoModifier or not index.isValid():
+            return False
+        rows = self.chosen_rows
+        return len(rows) > 1 and index.row() in rows
+
+    def selectionCommand(self, index: Index, event: QEvent | None = None) -> QItemSelectionModel.SelectionFlag:
+        if self._is_plain_on_several(index, event) and self._model.columns[index.column()].key == "on":
+            return QItemSelectionModel.SelectionFlag.NoUpdate  # the tick is set for all of them
+        return super().selectionCommand(index, event)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        is_first = self._is_plain_on_several(self.indexAt(event.position().toPoint()), event)
+        self._left = self.chosen_rows if is_first else None
+        super().mousePressEvent(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """The first of two clicks has left one row selected: what is edited is the cell of all that were."""
+        if self._left is not None and self.indexAt(event.position().toPoint()).row() in self._left:
+            self.choose_rows(self._left, scroll=False)
+            self.chosen.emit()
+        self._left = None
+        super().mouseDoubleClickEvent(event)
 
     # ------------------------------------------------------------------------------------------ keys
 
