@@ -111,7 +111,8 @@ def make_window(tmp_path: Path) -> Iterator[WindowMaker]:
 
     yield make
     for window in windows:
-        end_window(window)
+        if shiboken6.isValid(window):
+            end_window(window)
 
 
 @pytest.fixture(scope="module")

@@ -30,7 +30,7 @@ class Colouring(QObject):
         panels: Iterable[QuantityDock],
         texturing: Texturing,
     ) -> None:
-        super().__init__()
+        super().__init__(document)
         self._texturing = texturing
         self._document = document
         self._book = book

@@ -46,7 +46,7 @@ class Commands(QObject):
         super().__init__(window)
         self._window = window
         self._document = window.document
-        self.saver = Saver()
+        self.saver = Saver(self)
         self.saver.saved.connect(lambda path: window.status.say(f"Saved {path}."))
         self.saver.failed.connect(lambda sentence: window.error_bar.show_message(sentence))
         self._boundary_search: Background | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
@@ -89,7 +90,8 @@ class ReportBridge(QObject):
         """On the worker's thread. One queued signal for any number of reports."""
         if not self._is_pending and not self._is_closed:
             self._is_pending = True
-            self._woken.emit()
+            with suppress(RuntimeError):  # the window is gone, and a worker that took long to end is not
+                self._woken.emit()
 
     def _schedule(self) -> None:
         if self._is_closed:

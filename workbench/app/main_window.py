@@ -106,8 +106,8 @@ class MainWindow(QMainWindow):
         self._make_centre()
         self._make_status()
         self._make_docks()
-        self.turns = PanelTurns()
-        self.texturing = Texturing(self.source.view, self.target.view)
+        self.turns = PanelTurns(self)
+        self.texturing = Texturing(self.source.view, self.target.view, self)
         panels = (*self.maps, self.histogram)
         self.colouring = Colouring(self.document, self.quantities, (self.source, self.target), panels, self.texturing)
         self.volume = VolumeView(self.document, self.quantities, self.brush)
@@ -144,6 +144,8 @@ class MainWindow(QMainWindow):
         self._finder.found.connect(self._methods_found)
         self._finder.failed.connect(self.reporter.show_exception)
         self._finder.start_after(self.document.snapshot_taken)
+        for part in (self.document, self.bridge):  # the last to end with the window: its other parts ask them to the end
+            part.setParent(self)
 
     @property
     def theme(self) -> Theme:

@@ -13,6 +13,7 @@ from workbench.app.first_anchors import SAMPLE
 from workbench.app.glyphs.glyph_menu import GlyphMenu
 from workbench.app.mnemonics import settle_menus
 from workbench.app.reporter import source_name
+from workbench.app.theme import Theme, ThemeSwitch
 from workbench.core.samples import sample_label
 
 if TYPE_CHECKING:
@@ -132,14 +133,27 @@ def fill_screenshots(window: MainWindow, menu: QMenu) -> None:
 
 
 def _add_themes(window: MainWindow, menu: QMenu) -> None:
-    group = QActionGroup(menu)
+    group = ThemeActions(menu, window.theme_switch)
     for choice, text in (("system", "Follow the system"), ("light", "Light"), ("dark", "Dark")):
         action = menu.addAction(text)
         action.setCheckable(True)
-        action.setChecked(window.theme_switch.choice == choice)
+        action.setData(choice)
         group.addAction(action)
         action.triggered.connect(lambda _=False, c=choice: window.commands.choose_theme(c))
-        window.theme_switch.changed.connect(lambda _, a=action, c=choice: a.setChecked(c == window.theme_switch.choice))
+    group.tick(window.theme)
+    window.theme_switch.changed.connect(group.tick)
+
+
+class ThemeActions(QActionGroup):
+    """The choice in force is ticked; the switch outlives the window, and so calls a method of what ends with it."""
+
+    def __init__(self, menu: QMenu, switch: ThemeSwitch) -> None:
+        super().__init__(menu)
+        self._switch = switch
+
+    def tick(self, _: Theme) -> None:
+        for action in self.actions():
+            action.setChecked(action.data() == self._switch.choice)
 
 
 def fill_recent(window: MainWindow, menu: QMenu) -> None:

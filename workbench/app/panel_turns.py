@@ -40,8 +40,8 @@ class PanelTurns(QObject):
     A panel is drawn in a pass of its own: two short passes let the mouse and the timers in between.
     """
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
         self.panels: list[Panel] = []
         self.is_drawing = True
         self.rest_factor = REST_FACTOR

@@ -45,7 +45,7 @@ class Presenter(QObject):
         brush: SimplexBrush,
         volume: VolumeView,
     ) -> None:
-        super().__init__()
+        super().__init__(document)
         self._document = document
         self._brush = brush
         self._volume = volume

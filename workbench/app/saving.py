@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtCore import QObject, Signal
 
+from workbench.app.background import Backgrounds
 from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
 from workbench.engine.messages import Loaded, Snapshot
@@ -41,43 +41,30 @@ class Saver(QObject):
 
     saved = Signal(str)
     failed = Signal(str)
-    _done = Signal(str, str)
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._thread: threading.Thread | None = None
-        self._done.connect(self._report, Qt.ConnectionType.QueuedConnection)
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._works = Backgrounds(self)
 
     @property
     def is_busy(self) -> bool:
-        return self._thread is not None and self._thread.is_alive()
+        return len(self._works) > 0
 
     def save(self, request: SaveRequest) -> None:
         if self.is_busy:
             self.failed.emit("The file before is still being written; save again in a moment.")
             return
-        self._thread = threading.Thread(target=self._run, args=(request,), name="save-map", daemon=True)
-        self._thread.start()
+        path = str(request.path)
 
-    def wait(self, seconds: float = 10.0) -> None:
-        if self._thread is not None:
-            self._thread.join(seconds)
+        def fail(error: Exception) -> None:
+            is_expected = isinstance(error, WorkbenchError)
+            self.failed.emit(error.sentence if is_expected else f"The map could not be written to {path}: {error}.")
 
-    def _run(self, request: SaveRequest) -> None:
-        sentence = ""
-        try:
-            write(request)
-        except WorkbenchError as error:
-            sentence = error.sentence
-        except Exception as error:  # a thread has nobody above it: everything is reported
-            sentence = f"The map could not be written to {request.path}: {error}."
-        self._done.emit(str(request.path), sentence)
+        self._works.start(lambda: write(request), lambda _: self.saved.emit(path), fail)
 
-    def _report(self, path: str, sentence: str) -> None:
-        if sentence:
-            self.failed.emit(sentence)
-        else:
-            self.saved.emit(path)
+    def wait(self) -> None:
+        """Let the thread end before the window does."""
+        self._works.wait()
 
 
 def write(request: SaveRequest) -> None:

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from workbench.app.background import Background
 from workbench.app.texturing.texturing import number_within
+from workbench.app.theme import Theme
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.glyph_layer import GlyphLayer
 from workbench.app.views.mesh_view import MeshView
@@ -63,7 +64,10 @@ class Glyphs(QObject):
         window.document.opened.connect(self._forget)
         window.document.shown_changed.connect(self._draw)
         window.volume.changed.connect(self._late.start)
-        window.theme_switch.changed.connect(lambda _: self._late.start())
+        window.theme_switch.changed.connect(self._theme_changed)
+
+    def _theme_changed(self, _: Theme) -> None:
+        self._late.start()
 
     def choose(self, **changes: Any) -> None:
         """Show others: fields of `GlyphChoice`."""

@@ -19,7 +19,7 @@ class HoverBrush(QObject):
     """Brushes one simplex at a time; what was brushed on purpose is left alone."""
 
     def __init__(self, brush: SimplexBrush, views: Sequence[MeshView], is_wanted: Callable[[], bool]) -> None:
-        super().__init__()
+        super().__init__(brush)
         self._brush = brush
         self._is_wanted = is_wanted
         self._under: tuple[MeshView, tuple[float, float]] | None = None

@@ -19,7 +19,7 @@ class Subject(QObject):
     changed = Signal()
 
     def __init__(self, document: Document) -> None:
-        super().__init__()
+        super().__init__(document)
         self._document = document
         self._dimension = 0
         self._seen: Key | None = None

@@ -41,8 +41,8 @@ class RaceModel(QObject):
     """A sentence of something that went wrong, and details."""
     progress = Signal(str)
 
-    def __init__(self, set_up: StartRace, make_worker: WorkerMaker = race_worker) -> None:
-        super().__init__()
+    def __init__(self, set_up: StartRace, make_worker: WorkerMaker = race_worker, parent: QObject | None = None) -> None:
+        super().__init__(parent)
         self.set_up = set_up
         self.records = [RaceRecord(entrant, set_up.problem, set_up.anchors) for entrant in set_up.entrants]
         self.total_measure = float(simplex_measures(set_up.mesh).sum())
@@ -55,6 +55,7 @@ class RaceModel(QObject):
         self._wants_to_run = False
         self._watched = Watch()
         self.bridge = RaceBridge(make_worker)
+        self.bridge.setParent(self)
         self.bridge.started.connect(self._take_started)
         self.bridge.frame.connect(self._take_frame)
         self.bridge.phase.connect(self._take_phase)

@@ -76,7 +76,7 @@ class RaceWindow(QMainWindow):
         self.resize(1560, 940)
         self._is_closed = False
         self.theme = theme
-        self.model = RaceModel(set_up, make_worker)
+        self.model = RaceModel(set_up, make_worker, self)
         self.colours = RaceColours(self.model, book, quantity, self)
         self.grid = ViewGrid(self.model, self.colours, theme, self)
         self.legend = ColourLegend(self.colours.range, self)

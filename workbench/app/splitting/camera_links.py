@@ -33,8 +33,8 @@ class Link:
 class CameraLinks(QObject):
     """Passes the camera of one linked view on to all others of its kind."""
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
         self._links: dict[MeshView, Link] = {}
         self._deeds: dict[MeshView, Callable[[], None]] = {}
         self._is_passing_on = False

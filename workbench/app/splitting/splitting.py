@@ -46,7 +46,7 @@ class Splitting(QObject):
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
         self._window = window
-        self.links = CameraLinks()
+        self.links = CameraLinks(self)
         self.grids: dict[str, PaneGrid] = {"centre": window.grid}
         self._leaves: dict[str, Leaf] = {}
         self.active = "target"

@@ -17,7 +17,7 @@ class LinkedViews(QObject):
     """Turning one of the `large` views turns the other at once, and the `small` ones when the hand pauses."""
 
     def __init__(self, large: Sequence[MeshView], small: Sequence[MeshView], is_wanted: Callable[[], bool]) -> None:
-        super().__init__()
+        super().__init__(large[0])
         self._large = tuple(large)
         self._small = tuple(small)
         self._is_wanted = is_wanted

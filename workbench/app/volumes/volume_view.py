@@ -29,7 +29,7 @@ class VolumeView(QObject):
     opened = Signal()
 
     def __init__(self, document: Document, book: QuantityBook, brush: SimplexBrush) -> None:
-        super().__init__()
+        super().__init__(document)
         self._document = document
         self._book = book
         self._brush = brush
