@@ -184,6 +184,32 @@ def test_the_keys_are_letters_where_text_is_written_and_say_so_where_nothing_is_
     assert not window.target_tool.is_dragging and "No anchor is selected" in window.status.sentence.text()
 
 
+@pytest.mark.parametrize(("key", "word"), [(Qt.Key.Key_R, "turn"), (Qt.Key.Key_S, "scale")])
+def test_one_anchor_alone_has_nothing_to_turn_about_and_that_is_said(window: MainWindow, key: Qt.Key, word: str) -> None:
+    document, said = window.document, window.status.sentence
+    document.pin(np.array([136, 140]))
+    document.select(136)
+    steps = window.undoing.history.names
+    QTest.keyClick(window, key)
+    assert not window.target_tool.is_dragging and f"alone does not {word}" in said.text()
+    QTest.keyClick(window, Qt.Key.Key_G)
+    window.status.say("")
+    QTest.keyClick(window, key)
+    assert "Move" in window.target.view.overlay.scene.hint and f"alone does not {word}" in said.text(), "it is moved still"
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.undoing.history.names == steps
+    window.desk.company.choose(has_falloff=True, reach=10.0)
+    QTest.keyClick(window, key)
+    type_keys(window, "3")
+    QTest.keyClick(window, Qt.Key.Key_Return)
+    assert window.undoing.history.names == (*steps, "Move anchor"), "the one near by turns about it"
+    window.desk.company.choose(has_falloff=False)
+    document.select_all((136, 140))
+    QTest.keyClick(window, key)
+    assert window.target_tool.is_dragging, "two are turned about their centre"
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+
+
 def test_a_mirror_twin_is_made_moves_likewise_and_goes_again_with_esc(window: MainWindow) -> None:
     view, document, hand = window.target.view, window.document, Hand(window.target.view)
     take(window, 0)

@@ -73,6 +73,8 @@ class AnchorTool(NavigationTool):
         self.area = AreaDrawing(view)
         self.is_picking = self.wheel_is_taken = False
         self.note = ""
+        self.may_hold: Callable[[str], bool] = lambda deed: True
+        """Whether "move", "turn" or "scale" has a meaning for the selected anchors; who is asked says why not."""
         self._pending: tuple[QPointF, bool, float] | None = None
         self._keys = HoldKeys(self, view.overlay)
         self._keys.axis_pressed.connect(self._lock_axis)
@@ -335,7 +337,7 @@ class AnchorTool(NavigationTool):
     def _change_deed(self, deed: str) -> None:
         """Another deed from the same begin; what the first one did is taken back."""
         hold = self._hold
-        if isinstance(hold, KeyHold) and hold.deed != deed:
+        if isinstance(hold, KeyHold) and hold.deed != deed and self.may_hold(deed):
             self._hold = hold.instead(deed)
             self.view.overlay.scene.guide = None
             self.move_again()

@@ -56,6 +56,12 @@ class AnchorDesk(QObject):
         """Whether a turn still waits for the map to come after."""
         return self._timer.isActive()
 
+    @property
+    def is_at_one_place(self) -> bool:
+        """Whether nothing that goes with the selected anchors would move, were they turned or scaled about their centre."""
+        targets = self._document.anchors.targets_of(self._document.selected_anchors)
+        return not self.company.customs.has_falloff and len(targets) > 0 and not np.ptp(targets, axis=0).any()
+
     # ------------------------------------------------------------------------------------------ moving
 
     def take_up(self) -> None:

@@ -18,6 +18,7 @@ from workbench.core.arrays import Integers
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
+AT_ONE_PLACE = "One anchor alone does not {}: select more (Shift+click, Shift+L), or let those near by follow it (O)."
 NOTHING_SELECTED = "No anchor is selected: click one, with Shift more of them, or draw a lasso round them (Shift+L)."
 
 MENUS = (
@@ -64,6 +65,7 @@ class Handling(QObject):
     def connect_tool(self, tool: AnchorTool) -> None:
         """Let one more tool ask."""
         self._tools.append(tool)
+        tool.may_hold = self._may_hold
         tool.destroyed.connect(lambda: self._tools.remove(tool))
         self.menu.connect_tool(tool)
         self.pinning.connect_tool(tool)
@@ -155,8 +157,15 @@ class Handling(QObject):
         over = [tool for tool in targets if tool.view.overlay.underMouse()]
         if any(tool.is_dragging for tool in targets):
             return
-        if not (over or targets)[0].hold(deed):
+        if self._may_hold(deed) and not (over or targets)[0].hold(deed):
             self._window.status.say(NOTHING_SELECTED)
+
+    def _may_hold(self, deed: str) -> bool:
+        """What is at one place has nothing about which it could turn: that is said instead."""
+        if deed == "move" or not self._desk.is_at_one_place:
+            return True
+        self._window.status.say(AT_ONE_PLACE.format(deed))
+        return False
 
     def fill_menu(self, menu: QMenu) -> None:
         """What is offered for choosing, pinning and moving, in menus within a menu."""
