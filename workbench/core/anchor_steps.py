@@ -17,6 +17,7 @@ import numpy as np
 from workbench.core.anchor_motion import anchor_groups, next_displacement
 from workbench.core.anchor_response import AnchorResponse, displacement_shapes
 from workbench.core.arrays import Floats, Integers, frozen
+from workbench.core.carried_step import carried_step
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.linear_back_end import SingularMatrixError
@@ -63,9 +64,9 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
         return replace(state, status=Status.INTERRUPTED)
     displacement = next_displacement(x[hard], problem.anchors.hard_targets, _groups(problem))
     if renewal == "eager" and not approach.hold:
-        turned = turned_step(problem, state, displacement, _groups(problem))
-        if turned is not None:
-            return turned
+        walked = carried_step(problem, state) or turned_step(problem, state, displacement, _groups(problem))
+        if walked is not None:
+            return walked
     fresh = not system.serves(hard) or (approach.refresh and _renews(problem, renewal))
     if fresh:
         evaluation = problem.evaluate(x, 2)

@@ -13,7 +13,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
+import scipy
 
 from workbench.core.anchor_motion import LARGEST_TURN, twist_between
 from workbench.core.arrays import Floats, Integers, frozen
@@ -56,11 +56,17 @@ def turned_step(problem: Problem, state: State, displacement: Floats, groups: li
     candidate = moved_by_twists(x, extended(twists))
     candidate += extended(x[hard] + displacement - candidate[hard])  # a stretch, say, that is no rigid motion
     candidate[hard] = x[hard] + displacement
+    return walked_state(problem, state, candidate)
+
+
+def walked_state(problem: Problem, state: State, candidate: Floats) -> State | None:
+    """The state at the map `candidate` (N, d), to which the anchors led; None where it inverts a simplex or costs too much."""
     problem.workspace.counts["trials"] += 1
     if not np.isfinite(candidate).all():
         return None
     after = problem.evaluate(candidate, 1)
-    if not math.isfinite(after.energy) or after.inverted or after.energy - state.energy > MOST_RISE * abs(state.energy):
+    risen = after.energy - state.energy > MOST_RISE * abs(state.energy)
+    if not math.isfinite(after.energy) or after.inverted > state.inverted or risen:
         return None
     candidate = frozen(candidate)
     return replace(
@@ -70,7 +76,7 @@ def turned_step(problem: Problem, state: State, displacement: Floats, groups: li
         energy=after.energy,
         gradient_norm=problem.free_gradient_norm(after.gradient),
         step_size=1.0,
-        inverted=0,
+        inverted=after.inverted,
         anchor_error=problem.anchor_error(candidate),
         status=Status.RUNNING,
         previous_energy=float("nan"),
@@ -95,5 +101,5 @@ def moved_by_twists(points: Floats, twists: Floats) -> Floats:
         twice = np.where(angle < 1e-3, 1.0 / 6.0 - angle**2 / 120.0, (angle - np.sin(angle)) / angle**3)
     across = np.cross(turn, velocity)
     slide = velocity + once * across + twice * np.cross(turn, across)
-    result: Floats = (Rotation.from_rotvec(turn).apply(spatial) + slide)[:, :d]
+    result: Floats = (scipy.spatial.transform.Rotation.from_rotvec(turn).apply(spatial) + slide)[:, :d]
     return result
