@@ -185,6 +185,27 @@ def test_any_sequence_of_splits_keeps_every_view_in_one_place(window: MainWindow
     assert {name: shape(tree) for name, tree in again.items()} == {name: shape(tree) for name, tree in layout.items()}
 
 
+def test_views_that_are_closed_again_leave_the_others_as_large_as_they_were(window: MainWindow) -> None:
+    splitting = window.splitting
+    window.grid.root.setSizes([300, 600])
+    stack = []
+    for name, side in (("target", "right"), ("source", "below"), ("target", "below")):
+        stack.append(sizes_of(window))
+        assert splitting.split(name, side) is not None
+    while stack:
+        splitting.close_view(splitting.panes[-1].objectName())
+        QTest.qWait(20)
+        now, before = sizes_of(window), stack.pop()
+        assert now.keys() == before.keys()
+        assert all(np.abs(np.subtract(now[name], before[name])).max() <= 4 for name in now), (now, before)
+
+
+def sizes_of(window: MainWindow) -> dict[str, tuple[int, int]]:
+    """Width and height of each view of the centre, once it is laid out."""
+    QTest.qWait(20)
+    return {leaf.objectName(): leaf.size().toTuple() for leaf in window.grid.leaves()}
+
+
 def shape(tree: dict) -> tuple:
     """A layout without its sizes."""
     return tree["split"], tuple(part if isinstance(part, str) else shape(part) for part in tree["parts"])

@@ -66,10 +66,16 @@ class PaneGrid:
         parent.setSizes(sizes)
 
     def take(self, leaf: QWidget) -> None:
-        """Remove a leaf, which has no parent then; what it leaves alone takes its room."""
+        """Remove a leaf, which has no parent then; its neighbour, from which it was split, takes its room."""
         parent = _parent(leaf)
+        sizes, row = parent.sizes(), parent.indexOf(leaf)
+        seen = [place for place, size in enumerate(sizes) if size and place != row]
+        if seen:
+            heir = max((place for place in seen if place < row), default=seen[0])
+            sizes[heir] += sizes[row] + parent.handleWidth()
         leaf.hide()
         leaf.setParent(None)
+        parent.setSizes(sizes[:row] + sizes[row + 1 :])
         if parent.count() == 1 and parent is not self.root:
             above = _parent(parent)
             sizes, row = above.sizes(), above.indexOf(parent)
