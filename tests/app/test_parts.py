@@ -62,7 +62,10 @@ def test_a_part_that_goes_hears_nothing_more_of_its_works(qtbot: QtBot) -> None:
         work.failed.connect(heard.append)
         work.start()
         work.wait()  # what it reports is on its way now, in the queue of this thread
+    late = Background(lambda: heard.append("late"), part)
     silence_all(window)
+    late.start()
+    late.wait()
     qtbot.waitUntil(lambda: heard == ["done"])
     qtbot.wait(20)
     assert heard == ["done"]

@@ -24,7 +24,9 @@ class Background(QObject):
         self._thread = threading.Thread(target=self._run, daemon=True)
 
     def start(self) -> None:
-        self._thread.start()
+        """Begin, unless the part of the window that wanted it was closed meanwhile."""
+        if not self._is_silent:
+            self._thread.start()
 
     def wait(self, seconds: float = 10.0) -> None:
         if self._thread.is_alive():
@@ -37,17 +39,17 @@ class Background(QObject):
 
     def _run(self) -> None:
         result: Any = None
-        error: Exception | None = None
+        error: BaseException | None = None
         try:
             result = self._work()
-        except Exception as caught:  # nobody above a thread: the window shows it
+        except (Exception, SystemExit) as caught:  # nobody above a thread: the window shows it; libraries exit, too
             error = caught
         try:
             self._arrived.emit(result, error)
         except RuntimeError:
             pass  # the window was closed meanwhile
 
-    def _report(self, result: Any, error: Exception | None) -> None:
+    def _report(self, result: Any, error: BaseException | None) -> None:
         if self._is_silent:
             return
         if error is None:
