@@ -288,6 +288,10 @@ def test_the_window_of_two_moments(line: TimeLine, window: MainWindow, qtbot: Qt
     qtbot.waitUntil(lambda: dialog.comparison is not None)
     found = dialog.comparison
     assert "E of A" in dialog.words.text()
+    for _ in range(2):
+        corners = dialog.view.project(dialog._geometry.points)
+        assert (corners >= 0).all() and (corners <= dialog.view.size_in_pixels).all(), "A and B are seen whole, from one place"
+        dialog.flip.click()
     for mode, values in (("difference", found.difference), ("displacement", found.distances), ("maps", found.values[1])):
         dialog.mode.setCurrentIndex(dialog.mode.findData(mode))
         assert np.allclose(dialog.view.surface._values, values)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from workbench.app.colour_legend import ColourLegend
@@ -41,6 +41,7 @@ class CompareWindow(QDialog):
         self._simplices: Integers | None = None
         self.comparison: Comparison | None = None
         self.view = MeshView(theme, self)
+        self._own_camera = self.view.camera
         self.tool = NavigationTool(self.view)
         self.arrows = ArrowLayer(self.view)
         self.chooser = QuantityChooser(book, quantity, parent=self)
@@ -97,13 +98,28 @@ class CompareWindow(QDialog):
     # ------------------------------------------------------------------------------------------ showing
 
     def show_comparison(self, comparison: Comparison, simplices: Integers) -> None:
-        """Take two moments; the camera stays where it is while they are of the same mesh."""
+        """Take two moments; a camera that somebody moved stays where it is while they are of the same mesh."""
         self.comparison = comparison
         if self._geometry is None or self._simplices is not simplices:
             self._geometry, self._simplices = Geometry(comparison.maps[0], simplices), simplices
             self.view.show_geometry(self._geometry, edges=False)
+            self._own_camera = self.view.camera
         self.words.setText(comparison.sentence)
         self._show()
+        if self.view.camera is self._own_camera:
+            self._fit_both()
+
+    def _fit_both(self) -> None:
+        """Both maps fit: flipped, neither leaves the view, and it does not move."""
+        assert self.comparison is not None and self._geometry is not None
+        points = np.concatenate([self._geometry.frame.to_display(positions) for positions in self.comparison.maps])
+        self._own_camera = self.view.camera.fitted(points, self.view.size_in_pixels)
+        self.view.set_camera(self._own_camera)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        if self._geometry is not None and self.view.camera is self._own_camera:
+            self._fit_both()
 
     def _show(self) -> None:
         """Map, colours and bar of the mode; of a difference the map of B is coloured unless it is flipped."""
