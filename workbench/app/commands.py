@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QMessageBox, QWidget
 
 from workbench.app.background import Background
 from workbench.app.binding.binding import Binding
@@ -17,6 +17,7 @@ from workbench.app.composing.composing import Composing
 from workbench.app.composing.figure_presets import FigurePresets
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.exporting.exporting import Exporting
+from workbench.app.file_choice import MESH_FILTERS, ask_file
 from workbench.app.filling.filling import Filling
 from workbench.app.help_texts import ABOUT
 from workbench.app.method_tips.chooser_tips import ChooserTips
@@ -35,8 +36,6 @@ if TYPE_CHECKING:
     from workbench.app.dissection.dissection_window import DissectionWindow
     from workbench.app.main_window import MainWindow
     from workbench.app.signatures.signature_window import SignatureWindow
-
-MESH_FILTERS = "Meshes and cases (*.obj *.off *.ply *.stl *.mesh *.meshb *.msh *.vtk *.vtu *.npz *.mat);;All files (*)"
 
 
 class Commands(QObject):
@@ -134,13 +133,7 @@ class Commands(QObject):
     # ------------------------------------------------------------------------------------------ files
 
     def ask_open(self) -> None:
-        dialog = QFileDialog(self._window, "Open a mesh or a case", self._window.settings.folder, MESH_FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        self._ask(dialog, self._open_file)
-
-    def _open_file(self, path: str) -> None:
-        self._window.settings.folder = str(Path(path).parent)
-        self._window.open(path)
+        ask_file(self._window, "Open a mesh or a case", MESH_FILTERS, self._window.open)
 
     def ask_save(self) -> None:
         name = stem_of(self._document.session.source) + "-map.obj"
@@ -171,9 +164,7 @@ class Commands(QObject):
         )
 
     def ask_carry(self) -> None:
-        dialog = QFileDialog(self._window, "Carry a surface inside the solid", self._window.settings.folder, MESH_FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        self._ask(dialog, self._window.carried.read)
+        ask_file(self._window, "Carry a surface inside the solid", MESH_FILTERS, self._window.carried.read)
 
     def _carried_refused(self, error: Exception) -> None:
         if isinstance(error, WorkbenchError):
@@ -195,11 +186,6 @@ class Commands(QObject):
     def save_screenshot(self, widget: QWidget, path: str) -> None:
         """Write a picture of a widget with all that is in it."""
         self.exporting.save_picture(widget.grab().toImage(), path)
-
-    def _ask(self, dialog: QFileDialog, deed: Any) -> None:
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(deed)
-        dialog.open()
 
     # ------------------------------------------------------------------------------------------ anchors
 
@@ -247,7 +233,7 @@ class Commands(QObject):
             from workbench.app.signatures.signature_window import SignatureWindow
 
             window = self._window
-            self.signatures = SignatureWindow(window.theme, window.settings.folder, window)
+            self.signatures = SignatureWindow(window.theme, window)
             self.signatures.present_wanted.connect(self._add_signature)
             window.theme_switch.changed.connect(self.signatures.set_theme)
             self._add_signature()

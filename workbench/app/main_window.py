@@ -330,6 +330,8 @@ class MainWindow(QMainWindow):
 
     def dropEvent(self, event: QDropEvent) -> None:
         files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
+        elif self.commands.binding.takes(source):
+            self.commands.binding.open(str(Path(source).expanduser()))
         if files:
             event.acceptProposedAction()
             if self.textures.takes(files[0]) and not self.sessions.takes(files[0]):

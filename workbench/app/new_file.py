@@ -9,6 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from workbench.app.file_choice import remember_folder
 from workbench.io.opening import SAMPLE
 
 
@@ -33,6 +34,7 @@ def ask_new_file(
     dialog.setDefaultSuffix(suffix)
     dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(ending_of(chosen) or suffix))
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.fileSelected.connect(lambda path: remember_folder(parent, path))
     dialog.fileSelected.connect(take)
     dialog.open()
 
@@ -41,6 +43,11 @@ def ending_of(name_filter: str) -> str:
     """First ending that a name filter of a dialog stands for; empty where it stands for all."""
     found = re.search(r"\*\.(\w+)", name_filter)
     return found.group(1) if found else ""
+
+
+def endings_of(filters: str) -> frozenset[str]:
+    """Endings, in small letters with their dots, of the first of some name filters: those that are meant."""
+    return frozenset(f".{ending.lower()}" for ending in re.findall(r"\*\.(\w+)", filters.split(";;")[0]))
 
 
 def stem_of(source: str) -> str:

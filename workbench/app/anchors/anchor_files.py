@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+from PySide6.QtWidgets import QMessageBox
 
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_dock import AnchorDock
 from workbench.app.anchors.anchor_edits import set_of, table_of
 from workbench.app.background import Backgrounds
+from workbench.app.file_choice import ask_file
 from workbench.app.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.io.anchor_rows import AnchorTable
@@ -55,11 +56,7 @@ class AnchorFiles(QObject):
         if self._document.mesh is None:
             self._window.status.say("Open a mesh first; anchors belong to its vertices.")
             return
-        dialog = QFileDialog(self._window, "Import anchors", self._window.settings.folder, FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.read)
-        dialog.open()
+        ask_file(self._window, "Import anchors", FILTERS, self.read)
 
     def read(self, path: str) -> None:
         """Read a file, then put its anchors in the place of those that are there, or beside them, as the user says."""

@@ -5,11 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QFontDatabase, QShowEvent
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QFileDialog, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
 from workbench.app.document import Document
+from workbench.app.file_choice import ask_file, last_folder
+from workbench.app.file_drops import FileDrops
 from workbench.app.new_file import ask_new_file
 from workbench.core.constraints import LinearConstraints
 from workbench.core.errors import WorkbenchError
@@ -31,12 +33,10 @@ Role = QDialogButtonBox.ButtonRole
 class EquationDialog(QDialog):
     """Stays open beside the window; `Apply` gives the equations to the document as one step that can be undone."""
 
-    folder_used = Signal(str)
-
-    def __init__(self, document: Document, folder: str, parent: QWidget) -> None:
+    def __init__(self, document: Document, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle("Linear equations")
-        self._document, self._folder = document, folder
+        self._document = document
         self._read: tuple[tuple[str, ...], int] = ((), 0)
         self._rows: LinearConstraints | None = None
         explanation = QLabel(EXPLANATION, self)
@@ -55,6 +55,7 @@ class EquationDialog(QDialog):
         layout = QVBoxLayout(self)
         for part in (explanation, self.text, self.state, buttons):
             layout.addWidget(part)
+        FileDrops(self, FILTER, lambda files: self.open(files[0]))
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.setInterval(MILLISECONDS)
@@ -106,24 +107,11 @@ class EquationDialog(QDialog):
             self._show_error(error.sentence)
 
     def _ask_open(self) -> None:
-        dialog = QFileDialog(self, "Open linear equations", self._folder, FILTER)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self._use_folder)
-        dialog.fileSelected.connect(self.open)
-        dialog.open()
+        ask_file(self, "Open linear equations", FILTER, self.open)
 
     def _ask_save(self) -> None:
-        place = str(Path(self._folder) / "equations.txt")
-        ask_new_file(self, "Save linear equations", place, FILTER, "txt", self._save_there, overwrites=True)
-
-    def _save_there(self, path: str) -> None:
-        self._use_folder(path)
-        self.save(path)
-
-    def _use_folder(self, path: str) -> None:
-        self._folder = str(Path(path).parent)
-        self.folder_used.emit(self._folder)
+        place = str(Path(last_folder(self)) / "equations.txt")
+        ask_new_file(self, "Save linear equations", place, FILTER, "txt", self.save, overwrites=True)
 
     # --------------------------------------------------------------------------------------- showing
 

@@ -11,10 +11,11 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt
-from PySide6.QtWidgets import QFileDialog, QMenu
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QMenu
 
 from workbench.app.background import Backgrounds
+from workbench.app.file_choice import ask_folder
 from workbench.app.saving import SaveRequest, write
 from workbench.core.errors import WorkbenchError
 
@@ -54,11 +55,7 @@ class FigurePresets(QObject):
             action.triggered.connect(partial(self._ask, preset.id))
 
     def _ask(self, preset: str, _: bool = False) -> None:
-        dialog = QFileDialog(self._window, f"Folder for {preset}.png, .pdf and .svg", self._window.settings.folder)
-        dialog.setFileMode(QFileDialog.FileMode.Directory)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda folder: self.make(preset, folder))
-        dialog.open()
+        ask_folder(self._window, f"Folder for {preset}.png, .pdf and .svg", partial(self.make, preset))
 
     def make(self, preset: str, folder: str) -> None:
         """Make the figure; the window goes on meanwhile."""

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -21,6 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.file_choice import ask_file
+from workbench.app.file_drops import FileDrops
 from workbench.app.filling.fill_work import FillRequest, check_request
 from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.refine_work import free_name
@@ -75,6 +76,7 @@ class FillDialog(QDialog):
         layout.addWidget(self.error)
         layout.addWidget(self.progress)
         layout.addWidget(self.buttons)
+        FileDrops(self, SURFACES, lambda files: self.source.setText(files[0]))
         self._propose_name()
 
     def _make_form(self, source: str) -> None:
@@ -123,11 +125,7 @@ class FillDialog(QDialog):
         self.error.hide()
 
     def _browse_surface(self) -> None:
-        dialog = QFileDialog(self, "Fill a surface", str(self._folder), SURFACES)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.source.setText)
-        dialog.open()
+        ask_file(self, "Fill a surface", SURFACES, self.source.setText)
 
     def _browse_solid(self) -> None:
         ask_new_file(self, "Save the solid", self.file.text(), SOLIDS, "mesh", self._take_file)

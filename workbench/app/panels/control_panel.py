@@ -10,7 +10,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QComboBox,
-    QFileDialog,
     QFormLayout,
     QFrame,
     QGroupBox,
@@ -24,6 +23,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.document import Document
+from workbench.app.file_choice import MAP_FILTERS, ask_file
 from workbench.app.first_start import has_own_map, start_in_force
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
@@ -205,12 +205,7 @@ class ControlPanel(QScrollArea):
         self._document.choose(initializer=id, initializer_parameters=values)
 
     def _choose_file(self) -> None:
-        dialog = QFileDialog(self, "Map to start from")
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.take_start_file)
-        dialog.rejected.connect(self.show_session)
-        dialog.open()
+        ask_file(self, "Map to start from", MAP_FILTERS, self.take_start_file, leave=self.show_session)
 
     def take_start_file(self, path: str) -> None:
         self._document.choose(initializer="file", initializer_parameters={}, start_file=path)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
 
 from workbench.app.background import Background
+from workbench.app.file_choice import ask_folder
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.race_record import RaceRecord, relative_errors
 from workbench.core.errors import WorkbenchError
@@ -31,11 +32,7 @@ class RaceSaver(QObject):
 
     def ask(self) -> None:
         """Choose a folder."""
-        dialog = QFileDialog(self._window, "Folder for the tables and curves of the race")
-        dialog.setFileMode(QFileDialog.FileMode.Directory)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.save)
-        dialog.open()
+        ask_folder(self._window, "Folder for the tables and curves of the race", self.save)
 
     def save(self, folder: str) -> None:
         """Write table.csv and history.csv, then curves.svg, .pdf and .png, into a folder."""

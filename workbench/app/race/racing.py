@@ -76,7 +76,6 @@ class Racing(QObject):
             document.kind,
             session.distortion,
             dict(session.distortion_parameters),
-            self._window.settings.folder,
         )
         owner = self.race if self.race is not None else self._window
         self.dialog = SetUpDialog(ground, registry, self._drafts, owner)

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QGroupBox,
     QHBoxLayout,
@@ -29,6 +28,8 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.background import Background
+from workbench.app.file_choice import MAP_FILTERS, ask_files
+from workbench.app.file_drops import FileDrops
 from workbench.app.panels.method_form import MethodForm
 from workbench.app.race.contestant_pane import FAILED, swatch_of
 from workbench.app.race.draft import MOST, Draft, free_label, misfit, what_is_wrong
@@ -40,7 +41,6 @@ from workbench.core.registry import Registry
 from workbench.engine.race import PRESETS
 from workbench.engine.race_messages import Entrant
 
-MAP_FILTERS = "Maps (*.obj *.npz);;All files (*)"
 DOCUMENTS = ""
 """Data of the line that stands for the distortion of the document."""
 
@@ -64,7 +64,6 @@ class RaceGround:
     kind: str
     distortion: str
     parameters: Mapping[str, float]
-    folder: str
 
 
 class SetUpDialog(QDialog):
@@ -101,6 +100,7 @@ class SetUpDialog(QDialog):
         layout.addWidget(self._terms)
         layout.addWidget(self.error)
         layout.addWidget(self.buttons)
+        FileDrops(self, MAP_FILTERS, self.add_maps)
         if not drafts:
             for id in ("projected-newton", "aqp", "slim", "l-bfgs"):
                 if id in registry.solvers and not misfit(registry.solvers[id], ground.kind, self.distortion):
@@ -238,11 +238,7 @@ class SetUpDialog(QDialog):
             self._fill(min(row, len(self.drafts) - 1))
 
     def _ask_maps(self) -> None:
-        dialog = QFileDialog(self, "Maps of this source", self._ground.folder, MAP_FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.filesSelected.connect(self.add_maps)
-        dialog.open()
+        ask_files(self, "Maps of this source", MAP_FILTERS, self.add_maps)
 
     def add_maps(self, paths: list[str]) -> None:
         """Read maps on a thread; each becomes a contestant."""

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
+from PySide6.QtWidgets import QMenu, QMessageBox
 
+from workbench.app.file_choice import ask_file
 from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.reporter import source_name
 from workbench.app.sessions.session_desk import FILTERS, Found, SessionDesk
@@ -70,13 +71,8 @@ class SessionFiles(QObject):
 
     def ask_open(self) -> None:
         """Ask for a session, and go to it."""
-        window = self._window
         filters = "Sessions, and pictures that carry one (*.dwb *.json *.png);;All files (*)"
-        dialog = QFileDialog(window, "Open a session", window.settings.folder, filters)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(self.open)
-        dialog.open()
+        ask_file(self._window, "Open a session", filters, self.open)
 
     def takes(self, path: str) -> bool:
         """Whether a file is a session by its ending, or a picture that carries one."""
@@ -107,11 +103,8 @@ class SessionFiles(QObject):
         box.open()
 
     def _choose_mesh(self, found: Found) -> None:
-        dialog = QFileDialog(self._window, "The mesh of the session", str(Path(found.path).parent))
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.fileSelected.connect(lambda path: self.desk.open(found, path))
-        dialog.open()
+        folder = str(Path(found.path).parent)
+        ask_file(self._window, "The mesh of the session", "", partial(self.desk.open, found), place=folder)
 
     def fill_recent(self, menu: QMenu) -> None:
         """The sessions of the settings that are still there."""

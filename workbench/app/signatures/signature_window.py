@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
     QDialog,
-    QFileDialog,
     QGridLayout,
     QHBoxLayout,
     QHeaderView,
@@ -28,6 +27,8 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.background import Background
+from workbench.app.file_choice import ask_files, last_folder
+from workbench.app.file_drops import FileDrops
 from workbench.app.new_file import ask_new_file
 from workbench.app.signatures.comparison import Comparison, ComparisonChoices, compare
 from workbench.app.signatures.density_plot import DensityPlot
@@ -48,12 +49,11 @@ class SignatureWindow(QDialog):
     present_wanted = Signal()
     """The main window is asked for its map: it answers by `add_map`."""
 
-    def __init__(self, theme: Theme, folder: str, parent: QWidget) -> None:
+    def __init__(self, theme: Theme, parent: QWidget) -> None:
         super().__init__(parent)
         self.setWindowTitle("Shape signatures")
         self.setWindowFlag(Qt.WindowType.WindowMinMaxButtonsHint)
         self.resize(1120, 640)
-        self._folder = folder
         self._queue: deque[tuple[Callable[[], Any], Callable[[Any], None]]] = deque()
         self._work: Background | None = None
         self.comparison: Comparison | None = None
@@ -69,6 +69,7 @@ class SignatureWindow(QDialog):
         self._make_choices()
         self._make_buttons()
         self._lay_out()
+        FileDrops(self, MAP_FILTERS, self.add_files)
         self.set_theme(theme)
         self._show()
 
@@ -144,11 +145,7 @@ class SignatureWindow(QDialog):
             self._do(lambda path=path: _signature_of_file(path), self.maps.add)  # type: ignore[misc]
 
     def _ask_files(self) -> None:
-        dialog = QFileDialog(self, "Maps to compare", self._folder, MAP_FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFiles)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.filesSelected.connect(self.add_files)
-        dialog.open()
+        ask_files(self, "Maps to compare", MAP_FILTERS, self.add_files)
 
     # ------------------------------------------------------------------------------------------ work
 
@@ -222,7 +219,7 @@ class SignatureWindow(QDialog):
     # ------------------------------------------------------------------------------------------ saving
 
     def _ask_place(self, what: str) -> None:
-        place = str(Path(self._folder) / f"{what}.csv")
+        place = str(Path(last_folder(self)) / f"{what}.csv")
         ask_new_file(self, f"Save the {what}", place, "CSV (*.csv)", "csv", partial(self.save, what), overwrites=True)
 
     def save(self, what: str, path: str) -> None:

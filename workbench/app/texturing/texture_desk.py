@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QPoint
-from PySide6.QtWidgets import QFileDialog, QMenu
+from PySide6.QtWidgets import QMenu
 
+from workbench.app.file_choice import ask_file
 from workbench.app.first_start import has_own_map
 from workbench.app.texturing.pattern_dialog import PatternDialog
 from workbench.app.views.pane import ViewPane
@@ -72,11 +73,8 @@ class TextureDesk(QObject):
     def ask_picture(self, pane: ViewPane) -> None:
         """Choose a file; a view shows it."""
         window = self._window
-        folder = str(Path(window.texturing.layout.picture).parent) if window.texturing.has_picture else window.settings.folder
-        dialog = QFileDialog(window, "A picture on the mesh", folder, FILTERS)
-        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
-        dialog.fileSelected.connect(lambda path: self.show_picture(path, pane))
-        dialog.open()
+        folder = str(Path(window.texturing.layout.picture).parent) if window.texturing.has_picture else ""
+        ask_file(window, "A picture on the mesh", FILTERS, lambda path: self.show_picture(path, pane), place=folder)
 
     def show_picture(self, path: str, pane: ViewPane | None = None) -> None:
         """Lay the picture of a file over a view, or say why not."""
