@@ -239,11 +239,9 @@ def test_one_can_go_back_in_time(square):
     race.run()
     (racer,) = race.racers
     for row in racer.rows:
-        frame = race.map_at("aqp", row.seconds)
+        frame = racer.maps.at_seconds(row.seconds)
         assert frame.iteration == row.iteration
-        assert racer.problem.energy(race.map_at_iteration("aqp", row.iteration).positions) == pytest.approx(
-            row.energy, rel=1e-12
-        )
+        assert racer.problem.energy(racer.maps.at_iteration(row.iteration).positions) == pytest.approx(row.energy, rel=1e-12)
 
 
 def test_words_name_contestants():

@@ -16,7 +16,7 @@ from workbench.app.panel_turns import SOON, PanelTurns
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.brush_mark import BrushedParts
-from workbench.app.views.geometry import DisplayFrame, Geometry
+from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.volume_view import VolumeView
@@ -56,7 +56,6 @@ class Presenter(QObject):
         self._maps = maps
         self._colouring = colouring
         self._turns = turns
-        self._source_frame: DisplayFrame | None = None
         self._target_geometry: Geometry | None = None
         self._brushable: BrushedParts | None = None
         self._faces: DrawnFaces | None = None

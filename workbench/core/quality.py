@@ -38,13 +38,8 @@ def average_histogram(averages: Floats) -> tuple[Floats, Integers]:
     return bin_edges(float(low), float(high), HISTOGRAM_BINS), counts.astype(np.int64)
 
 
-def simplex_measures_of(mesh: Mesh, positions: Floats, others: Iterable[Measure] = ()) -> dict[str, Floats]:
-    """What is measured of each simplex of a map: every registered distortion by id, and `others` by theirs, each (m,)."""
-    sigma = SingularValues(singular_values_of_any(build_elements(mesh), positions))
-    return _values_of(sigma, others)
-
-
 def _values_of(sigma: SingularValues, others: Iterable[Measure] = ()) -> dict[str, Floats]:
+    """What is measured of each simplex of a map: every registered distortion by id, and `others` by theirs, each (m,)."""
     from workbench.core.registry import registry
 
     measures = [*(Measure(id) for id in sorted(registry().distortions)), *others]

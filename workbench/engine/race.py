@@ -147,16 +147,6 @@ class Race:
         for racer in self.racers:
             racer.stop()
 
-    # ----------------------------------------------------------------------------------- the way there
-
-    def map_at(self, label: str, seconds: float) -> Frame:
-        """The map that a contestant had after `seconds` of its own, the newest that is kept."""
-        return self.racer(label).maps.at_seconds(seconds)
-
-    def map_at_iteration(self, label: str, iteration: int) -> Frame:
-        """The map that a contestant had after so many iterations, the newest that is kept."""
-        return self.racer(label).maps.at_iteration(iteration)
-
     # ------------------------------------------------------------------------------------- comparisons
 
     def best_energies(self) -> dict[Terms, float]:

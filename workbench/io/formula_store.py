@@ -74,11 +74,6 @@ def delete_formula(id: str) -> None:
     _change(change)
 
 
-def saved_formulas() -> list[NamedFormula]:
-    """Those of the file that can be read."""
-    return read_formulas(formulas_file())[0]
-
-
 def _named(items: Sequence[NamedFormula], id: str) -> NamedFormula:
     found = next((item for item in items if item.id == id), None)
     if found is None:

@@ -34,10 +34,6 @@ class KeptMap:
     def is_exact(self) -> bool:
         return self._type == np.float64
 
-    @property
-    def is_packed(self) -> bool:
-        return self._raw is None
-
     def holds(self, positions: Floats) -> bool:
         """Whether it was made of this very array."""
         return self._raw is positions

@@ -41,7 +41,6 @@ class Applying(QObject):
         self._application = application
         self._usual_font = QFont(application.font())
         self._tips: TipSilencer | None = None
-        self._runs_on = False
         self._engine = QTimer(self)
         self._engine.setSingleShot(True)
         self._engine.setInterval(ENGINE_REST)

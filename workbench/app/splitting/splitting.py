@@ -107,9 +107,6 @@ class Splitting(QObject):
     def __contains__(self, name: object) -> bool:
         return name in self._leaves
 
-    def leaf_of(self, view: MeshView) -> Leaf:
-        return next(leaf for leaf in self.leaves if leaf.view is view)
-
     def _grid_of(self, leaf: Leaf) -> PaneGrid:
         return next(grid for grid in self.grids.values() if leaf.widget in grid)
 

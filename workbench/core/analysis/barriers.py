@@ -31,7 +31,7 @@ def _barrier(density: Density, paths: Paths, which: Side) -> Property:
     failing = np.flatnonzero(verdict == 0.0)
     if len(failing):
         k = int(failing[0])
-        return _violation(density, paths.exponents[k], paths.factors[k], which, k < len(told) and not np.isnan(told[k]))
+        return _violation(density, paths.exponents[k], paths.factors[k], k < len(told) and not np.isnan(told[k]))
     valley = bounded_valley(density, paths, which)
     if valley is not None:
         return _bounded(density, valley, f"a sequence that ends at {point_text(valley[-1])}", "numeric")
@@ -42,7 +42,7 @@ def _barrier(density: Density, paths: Paths, which: Side) -> Property:
     return Property(True, "numeric" if np.isnan(told).any() else "both", sentence)
 
 
-def _violation(density: Density, exponents: Floats, factors: Floats, which: Side, told: bool) -> Property:
+def _violation(density: Density, exponents: Floats, factors: Floats, told: bool) -> Property:
     """A sequence of points on a path along which D stays bounded."""
     depths = np.log(10.0) * np.array([0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0])
     points = factors * np.exp(depths[:, None] * exponents)
