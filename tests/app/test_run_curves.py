@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -12,55 +11,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from PySide6.QtCore import QCoreApplication
 
+from tests.app.loop_worker import LoopWorker
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.history import COLUMNS, History
 from workbench.app.run_curves import RunCurves, begin_of_run, rows_after
 from workbench.app.sessions.undoing import Undoing, chosen_bytes
 from workbench.app.switches import Switches
-from workbench.engine.loop import EngineLoop
-from workbench.engine.messages import Command, HistoryRow, MapReport, Ready, Refused, Report, SetAnchors, Snapshot, Step
-
-
-class LoopWorker:
-    """The engine itself on this thread; of the maps that nobody has read the newest is handed over, with all their rows."""
-
-    def __init__(self, wake: Callable[[], None]) -> None:
-        self._wake = wake
-        self._reports: list[Report] = []
-        self.loop = EngineLoop(self._take)
-
-    def start(self) -> None:
-        self._take(Ready(0.1))
-
-    def post(self, command: Command) -> None:
-        self.loop.handle(command)
-        while isinstance(command, Step | SetAnchors) and self.loop.advance():
-            pass
-
-    def _take(self, report: Report) -> None:
-        if isinstance(report, MapReport):
-            snapshot = Snapshot(
-                *(report.generation, report.number, report.positions, report.phase, report.status, report.rows[-1]),
-                *(report.inverted, {}, report.anchor_serial),
-                rows=report.rows,
-            )
-            last = self._reports[-1] if self._reports else None
-            if isinstance(last, Snapshot) and last.generation == snapshot.generation:
-                self._reports[-1] = replace(snapshot, rows=last.rows + snapshot.rows)
-            else:
-                self._reports.append(snapshot)
-        else:
-            self._reports.append(report)
-        self._wake()
-
-    def take(self) -> list[Report]:
-        taken, self._reports = self._reports, []
-        return taken
-
-    def stop(self) -> None: ...
-
-    def close(self) -> None: ...
+from workbench.engine.messages import HistoryRow, Refused
 
 
 class Room:
@@ -204,9 +162,10 @@ def test_a_moment_that_is_refused_hides_no_map(room: Room) -> None:
     step(room, 1)
     room.settle()
     room.undoing.undo()
-    room.bridge.refused.emit(Refused(room.document.generation, "TakeUp", "It does not suit."))
-    assert room.document._taken_up is None
+    serial = room.document.anchor_serial
+    room.bridge.refused.emit(Refused(room.document.generation, "TakeUp", "It does not suit.", serial=serial))
     room.settle()
+    assert room.document._taken_up is None
     room.steps(2)
     room.settle()
     assert room.history.column("iteration").max() >= 2

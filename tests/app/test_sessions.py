@@ -441,6 +441,7 @@ def test_a_window_that_is_killed_in_the_middle_of_a_drag_loses_little_and_the_ne
     box = window.findChild(QMessageBox, "recovery")
     assert box is not None and box.isVisible()
     next(button for button in box.findChildren(QPushButton) if button.text() == "Recover").click()
+    assert read_session(window.autosave.path).session.anchor_vertices == (4,), "nor is it lost if this window is killed now"
     qtbot.waitUntil(lambda: 4 in window.document.anchors)
     assert not kept.exists() and window.isWindowModified()
 

@@ -183,9 +183,14 @@ class Document(DocumentState):
         if report.command == "Watch":
             self.refused.emit(report)
         elif report.generation == self.generation or report.command != "Load":
-            self.opening_source = ""
+            if report.command == "Load":
+                self.opening_source = ""
+                if self.mesh is not None:  # what was done to its anchors meanwhile, nobody has told the engine
+                    self._send_anchors(False)
             if report.kept is not None and report.serial != self._orders.problem_serial:
                 return  # another choice is on its way already
+            if report.command == "TakeUp" and (self._taken_up is None or report.serial != self._taken_up[0]):
+                return  # another moment is
             restored = self._earlier.restored(self.session, report)
             if restored is not None:
                 self.session = restored
@@ -193,6 +198,7 @@ class Document(DocumentState):
             elif report.command == "TakeUp":
                 self._taken_up = None
                 self._put(self._earlier.before_taking_up())
+                self._send_anchors(False)  # under the number that is waited for
             elif report.command in ("Run", "Step"):
                 self.wants_to_run = False
                 self.session_changed.emit()
@@ -284,6 +290,11 @@ class Document(DocumentState):
         if session == self.session:
             return
         names = set(changes)
+        if self.opening_source:  # what is chosen now is for the mesh that is being read; its start is its own
+            if names & START_FIELDS:
+                self.session_changed.emit()
+                return
+            self._attempt = replace(self._attempt or self.session, **changes)
         self._announce("Choose", drawn_parameters(self.session, changes))
         self._earlier.keep(self.session, changes)
         self.session = session
@@ -302,6 +313,11 @@ class Document(DocumentState):
     # ------------------------------------------------------------------------------------------ running
 
     def run(self) -> None:
+        """Run the solver; while a mesh is being read, on that one as soon as it is there."""
+        if self.opening_source:
+            self._runs_after_open = True
+            self._wanted = self._wanted and replace(self._wanted, runs=True)
+            return
         if not self.is_at_work:
             self._announce("Run")
         self._run()
@@ -326,7 +342,7 @@ class Document(DocumentState):
             self.run()
 
     def step(self) -> None:
-        if self.mesh is not None:
+        if self.mesh is not None and not self.opening_source:
             self._announce("Step", "step")
             self.wants_to_run = False
             self._bridge.post(Step(1))
@@ -334,7 +350,7 @@ class Document(DocumentState):
 
     def reset(self) -> None:
         """Make the start anew; anchors stay where they are."""
-        if self.mesh is not None:
+        if self.mesh is not None and not self.opening_source:
             self._announce("Reset")
             self._make_start()
 
@@ -386,6 +402,8 @@ class Document(DocumentState):
 
     def _send_anchors(self, dragging: bool, at: float | None = None) -> None:
         self._orders.anchor_serial += 1
+        if self.opening_source:  # the engine would take them for those of the mesh that it reads
+            return
         if at is not None:
             self.drag_sent.emit(self.anchor_serial, at)
         self._orders.anchors(self.anchors, 3 if self.kind == "volume" else 2, dragging)

@@ -265,7 +265,7 @@ class Refused(Report):
     """A command could not be carried out: the sentence says why; `fixes` are names to offer as buttons.
 
     `lines` is the report on load where a mesh was read but does not suit; `command` is the class name.
-    Of a `SetProblem`, `serial` is its own, and `kept` the one that stays in force.
+    Of a `SetProblem`, `serial` is its own, and `kept` the one that stays in force; of a `TakeUp` it is that of its anchors.
     """
 
     generation: int

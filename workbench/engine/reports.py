@@ -9,7 +9,7 @@ import numpy as np
 from workbench.core.errors import WorkbenchError
 from workbench.core.facets import facet_table, neighbouring_simplices
 from workbench.core.samples import sample_info
-from workbench.engine.messages import Command, Load, Loaded, Refused, SetProblem
+from workbench.engine.messages import Command, Load, Loaded, Refused, SetProblem, TakeUp
 from workbench.io.opening import SAMPLE
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ def loaded_report(command: Load, opened: OpenedSource) -> Loaded:
 def refusal(command: Command, error: WorkbenchError, generation: int, choices: SetProblem) -> Refused:
     """The sentence of the error; `choices` are what stays in force, `generation` that of the present mesh."""
     kept, serial = (choices, command.serial) if isinstance(command, SetProblem) else (None, 0)
+    serial = command.anchors.serial if isinstance(command, TakeUp) else serial
     generation = command.generation if isinstance(command, Load) else generation
     lines = tuple(getattr(error, "lines", ()))  # the report on load, where `open_source` could read the mesh
     return Refused(generation, type(command).__name__, error.sentence, error.fixes, lines, kept, serial)

@@ -128,6 +128,20 @@ class UndoHistory(Generic[Choices]):
         """The way to another moment failed: this one is still the present one."""
         self._done = done
 
+    def forget_moment(self, done: int, present: int) -> int:
+        """The moment at which the first `done` steps were done cannot be gone to: the steps on both sides of it become one.
+
+        Returns what the number `present` of another moment is from now on, which is the one that is present.
+        """
+        with self._lock:
+            if done == len(self._names):
+                self._names.pop()
+                self._tip = self._before.pop()
+            else:
+                del self._names[max(done - 1, 0)], self._before[done]
+            self._done = present - (present > done)
+            return self._done
+
     def _moment(self, choices: Choices, positions: Floats | None) -> Moment[Choices]:
         if positions is None:
             return Moment(choices, None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import secrets
 import time
 from contextlib import suppress
@@ -174,12 +175,17 @@ class Autosave(QObject):
         box.open()
 
     def _recover(self, left: Left, found: Found) -> None:
-        """Go to it; this window keeps states of its own from then on."""
+        """Go to it; until this window has kept a state of its own, that one is its own."""
         if found.trouble:
             self._desk.mesh_wanted.emit(found)
             return
         self._desk.open(found)
-        left.discard()
+        if self._lock is None:
+            left.discard()
+            return
+        with suppress(OSError):
+            os.replace(left.path, self.path)
+        left.lock.unlock()
 
 
 def _locked(path: Path) -> QLockFile | None:

@@ -75,6 +75,7 @@ class Undoing(QObject):
         self.history: UndoHistory[Chosen] = UndoHistory(MEMORY, self._may_round, chosen_bytes)
         self._key, self._is_choice = "", False
         self._came_from = -1
+        self._taken_up: tuple[int, int] | None = None
         self._changed_at = 0.0
         self._packing: Background | None = None
         self.curves: Callable[[], Curves | None] = lambda: None
@@ -83,7 +84,7 @@ class Undoing(QObject):
         document.session_changed.connect(self._name_step)
         document.anchors_changed.connect(self._forget_if_nothing)
         document.refused.connect(self._refused)
-        document.opened.connect(self._name_step)
+        document.opened.connect(self._opened)
 
     @property
     def _chosen(self) -> Chosen:
@@ -96,6 +97,7 @@ class Undoing(QObject):
         now = time.monotonic()
         is_same = bool(key) and key == self._key and now - self._changed_at < PAUSE
         self._key, self._changed_at = key, now
+        self._came_from, self._taken_up = -1, None
         self._is_choice = name in ("Choose", "Open")
         if is_same and self.history.done == len(self.history.names) and self.history.done:
             return
@@ -124,6 +126,10 @@ class Undoing(QObject):
             self.history.rename_last(words)
             self.changed.emit()
 
+    def _opened(self) -> None:
+        self._came_from = -1  # the mesh of the moment is there; one that is refused later is another matter
+        self._name_step()
+
     def _forget_if_nothing(self, even_if_held: bool = False) -> None:
         """A drag that was taken back, or a choice that was refused, is no step."""
         last = self.history.last
@@ -141,8 +147,19 @@ class Undoing(QObject):
             self.history.stay_at(self._came_from)  # the mesh of that moment is not there any longer
             self._came_from = -1
             self.changed.emit()
+        elif report.command == "TakeUp" and self._taken_up is not None:
+            self._go_past(*self._taken_up)
         else:
             self._forget_if_nothing(even_if_held=True)
+
+    def _go_past(self, came_from: int, done: int) -> None:
+        """A moment holds a choice that was refused only after the next step had begun: go on to the one beyond it."""
+        self._taken_up = None
+        present = self.history.forget_moment(done, came_from)
+        self.changed.emit()
+        beyond = done - 1 if done < came_from else done
+        if beyond != present:
+            self.go_to(beyond)
 
     # ------------------------------------------------------------------------------------------ going back and forth
 
@@ -166,6 +183,7 @@ class Undoing(QObject):
         session = with_anchors(chosen.session, chosen.anchors)
         document.restore(session, moment.positions, run=chosen.runs, curves=chosen.curves)
         self._came_from = came_from if document.opening_source else -1
+        self._taken_up = None if document.opening_source else (came_from, done)
         self.changed.emit()
         self.gone.emit()
 
