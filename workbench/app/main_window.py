@@ -321,6 +321,8 @@ class MainWindow(QMainWindow):
             self.sessions.open(str(Path(source).expanduser()))
         elif self.textures.takes(source):
             self.textures.show_picture(source)
+        elif self.commands.binding.takes(source):
+            self.commands.binding.open(str(Path(source).expanduser()))
         else:
             self.document.open(str(Path(source).expanduser()))
 
@@ -330,8 +332,6 @@ class MainWindow(QMainWindow):
 
     def dropEvent(self, event: QDropEvent) -> None:
         files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
-        elif self.commands.binding.takes(source):
-            self.commands.binding.open(str(Path(source).expanduser()))
         if files:
             event.acceptProposedAction()
             if self.textures.takes(files[0]) and not self.sessions.takes(files[0]):
