@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -14,15 +15,18 @@ from workbench.app.composing.figure_dialog import FigureDialog
 from workbench.app.composing.figure_work import NAME, Order, Subject, draw_preview, save
 from workbench.app.composing.offers import offers_of, subject_of
 from workbench.app.main_window import MainWindow
+from workbench.app.views.textures import pattern_image
 from workbench.core.errors import WorkbenchError
 from workbench.core.run import HistoryRow
 from workbench.core.samples import make_sample
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
 from workbench.figures.mesh_panel import scene_of
+from workbench.figures.mesh_pictures import is_inked
 from workbench.figures.recipe import Page, Panel
 from workbench.figures.recipe_text import read_recipe
 from workbench.figures.save import save_figure
+from workbench.figures.texture_panel import texture_places
 from workbench.session.session import Session
 
 
@@ -122,3 +126,35 @@ def test_a_solid_is_seen_as_its_view_is_turned(solid_window: MainWindow) -> None
     scale = view.camera.pixels_per_unit((width, height))
     here = scene.points[:, :2] * [scale, -scale]
     np.testing.assert_allclose(here - here[0], there - there[0], atol=1e-6)
+
+
+def test_patterns_lie_on_paper_as_they_do_in_the_views(window: MainWindow, tmp_path: Path) -> None:
+    colours = np.zeros((30, 50, 3), np.uint8)
+    colours[:15, :25], colours[15:, 25:] = (250, 30, 20), (20, 240, 60)
+    Image.fromarray(colours).save(tmp_path / "flag.png")
+    window.texturing.take_picture(str(tmp_path / "flag.png"))
+    usual = {"size": 1.0, "degrees": 0.0, "of_source": False, "of_unit": False}
+    for pattern in ("checkerboard", "grid", "circles", "stripes", "picture"):
+        window.colouring.set_style(window.target, pattern)
+        for changes in ({}, {"size": 0.6, "degrees": 30.0}, {"of_source": True}, {"of_unit": True}):
+            window.texturing.choose(**{**usual, **changes})
+            subject = subject_of(window)
+            assert subject is not None
+            scene = scene_of(subject.map, offers_of(window)[1].panel)
+            weights = np.random.default_rng(3).dirichlet(np.ones(3), len(scene.skin.triangles))
+            texture = window.texturing.texture(pattern)  # type: ignore[arg-type]
+            points = texture.points() if texture.points else None
+            assert points is not None
+            mixed = weights[:, None] @ texture.coordinates(points)[scene.skin.triangles]  # within triangles, off any edge
+            there, ours = mixed[:, 0], (weights[:, None] @ texture_places(scene)[scene.skin.triangles])[:, 0]
+            if pattern == "picture":
+                np.testing.assert_allclose(ours, there, atol=1e-4)
+                assert scene.panel.texture is not None
+                assert scene.panel.texture.picture == str(tmp_path / "flag.png")
+                continue
+            tile, within = pattern_image(pattern, False).astype(int), there - np.floor(there)  # type: ignore[arg-type]
+            side = len(tile)
+            seen = tile[((1.0 - within[:, 1]) * side).astype(int) % side, (within[:, 0] * side).astype(int) % side, 0]
+            dark = seen < 200
+            assert (dark == is_inked(ours, scene.panel.colour)).mean() > 0.95, "but for points on the edge of a field"
+            assert 0.02 < dark.mean() < 0.98

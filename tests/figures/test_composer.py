@@ -16,9 +16,21 @@ from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW
 from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
 from workbench.figures.mesh_panel import scene_of
-from workbench.figures.mesh_pictures import TEXTURE
+from workbench.figures.mesh_pictures import TEXTURE, is_inked
 from workbench.figures.page_layout import Cell, lay_out
-from workbench.figures.recipe import CHEQUERED, PLAIN, CarriedLook, MapChoice, Page, Panel, Recipe, SolidLook
+from workbench.figures.recipe import (
+    CHEQUERED,
+    PICTURE,
+    PLAIN,
+    CarriedLook,
+    MapChoice,
+    Page,
+    Panel,
+    Recipe,
+    SolidLook,
+    TextureLook,
+)
+from workbench.figures.recipe_text import read_recipe, write_recipe
 from workbench.figures.save import save_figure
 from workbench.session.session import Session
 
@@ -312,3 +324,98 @@ def test_a_carried_surface_is_seen_through_the_solid_and_before_it(maps):
     np.testing.assert_allclose(veiled[is_inside][:, :3], mixed[is_inside], atol=1e-9)
     outside = ~covered & (alone[..., 3] == 0) & (bare[..., 3] == 1)
     np.testing.assert_allclose(veiled[outside][:, 3], 0.25)
+
+
+def picture_in(axes):
+    """The image of a panel: its pixels (h, w, 4), and where their middles are, (h, w, 2)."""
+    (image,) = axes.images
+    pixels = np.asarray(image.get_array())
+    left, right, bottom, top = image.get_extent()
+    height, width = pixels.shape[:2]
+    x = left + (np.arange(width) + 0.5) / width * (right - left)
+    y = bottom + (np.arange(height) + 0.5) / height * (top - bottom)
+    return pixels, np.dstack(np.meshgrid(x, y))
+
+
+@pytest.fixture
+def quarters(tmp_path):
+    """A picture of four colours: red, green above blue, black."""
+    from PIL import Image
+
+    pixels = np.zeros((40, 60, 3), np.uint8)
+    pixels[:20, :30, 0] = pixels[:20, 30:, 1] = pixels[20:, :30, 2] = 255
+    Image.fromarray(pixels).save(tmp_path / "quarters.png")
+    return tmp_path / "quarters.png"
+
+
+@pytest.mark.parametrize("of", ["map", "source"])
+def test_a_picture_lies_where_its_look_says(maps, quarters, of):
+    look = TextureLook(of, ((0.5, 0.25), (-0.25, 0.5)), (0.3, 0.6), str(quarters))
+    (axes,) = figure_of(maps, Panel(maps=("pulled",), colour=PICTURE, texture=look), dpi=20).figure.axes
+    pixels, points = picture_in(axes)
+    if of == "source":  # where the points of the map come from: the map is linear in each triangle
+        found = maps["pulled"]
+        corners = found.positions[found.mesh.simplices]
+        points = points.copy()
+        for row, column in np.argwhere(pixels[..., 3] == 1.0):
+            with np.errstate(all="ignore"):
+                weights = np.linalg.solve(
+                    np.concatenate([corners.transpose(0, 2, 1), np.ones((len(corners), 1, 3))], axis=1),
+                    np.append(points[row, column], 1.0)[None, :, None],
+                )[..., 0]
+            best = int(weights.min(axis=1).argmax())
+            points[row, column] = weights[best] @ found.mesh.vertices[found.mesh.simplices[best]]
+    places = points @ np.array(look.matrix).T + look.offset
+    within = places - np.floor(places)
+    colours = np.array([[0, 0, 1], [0, 0, 0], [1, 0, 0], [0, 1, 0.0]])[
+        (2 * (within[..., 1] > 0.5) + (within[..., 0] > 0.5)).astype(int)
+    ]
+    is_sure = (np.abs(within - 0.5) > 0.06).all(axis=2) & (np.abs(within - 0.5) < 0.44).all(axis=2) & (pixels[..., 3] == 1.0)
+    assert is_sure.sum() > 200
+    assert len(np.unique(colours[is_sure], axis=0)) == 4
+    assert np.abs(pixels[..., :3] - colours)[is_sure].max() < 1e-6
+
+
+@pytest.mark.parametrize("pattern", ["chequered", "grid", "circles", "stripes"])
+def test_a_texture_lies_where_its_look_says(maps, pattern):
+    look = TextureLook("map", ((7.0, 3.0), (-3.0, 7.0)), (0.2, 0.7))
+    (axes,) = figure_of(maps, Panel(maps=("pulled",), colour=pattern, texture=look), dpi=300).figure.axes
+    pixels, points = picture_in(axes)
+    inked = is_inked(points @ np.array(look.matrix).T + look.offset, pattern)
+    near, far = np.abs(pixels[..., :3] - TEXTURE[1]).max(axis=2) < 1e-9, np.abs(pixels[..., :3] - TEXTURE[0]).max(axis=2) < 1e-9
+    pure = (near | far) & (pixels[..., 3] == 1.0)  # off the edges of fields
+    assert pure.sum() > 0.4 * (pixels[..., 3] == 1.0).sum()
+    assert (near == inked)[pure].mean() > 0.995
+
+
+def test_pictures_are_the_same_bytes_in_vector_pages_and_headless(maps, quarters, tmp_path):
+    look = TextureLook("map", ((0.4, 0.0), (0.0, 0.4)), (0.0, 0.0), str(quarters))
+    recipe = Recipe(
+        Page(width=60.0, dpi=72), (MapChoice("pulled", PULLED),), (Panel(maps=("pulled",), colour=PICTURE, texture=look),)
+    )
+    write_recipe(tmp_path / "recipe.json", recipe)
+    assert '"quarters.png"' in (tmp_path / "recipe.json").read_text()
+    again = read_recipe(tmp_path / "recipe.json")
+    assert again.panels[0] == recipe.panels[0]
+    for ending in ("png", "pdf", "svg"):
+        for name, given in (("a", recipe), ("b", again)):
+            save_figure(compose(given, maps).figure, tmp_path / f"{name}.{ending}", 72)
+        assert (tmp_path / f"a.{ending}").read_bytes() == (tmp_path / f"b.{ending}").read_bytes()
+    svg = (tmp_path / "a.svg").read_text()
+    assert "<image" in svg and paths_in(svg) == 0
+    assert compose(recipe, maps).notes == ("Panel 1 is a picture of 72 dpi (textured).",)
+    quarters.unlink()
+    with pytest.raises(WorkbenchError, match=r"quarters\.png"):
+        compose(again, maps)
+
+
+def test_a_picture_seen_from_afar_has_the_colours_of_its_mean(maps, tmp_path):
+    from PIL import Image
+
+    rows, columns = np.indices((512, 512))
+    Image.fromarray((np.dstack([(rows + columns) % 2] * 3) * 255).astype(np.uint8)).save(tmp_path / "fine.png")
+    look = TextureLook("map", ((0.5, 0.0), (0.0, 0.5)), (0.0, 0.0), str(tmp_path / "fine.png"))
+    (axes,) = figure_of(maps, Panel(maps=("rest",), colour=PICTURE, texture=look), width=30.0).figure.axes
+    pixels, _ = picture_in(axes)
+    inner = pixels[pixels[..., 3] == 1.0][:, :3]
+    assert np.abs(inner - 0.5).max() < 0.05

@@ -84,7 +84,7 @@ def test_pictures_show_the_colours_given_and_nothing_outside(square):
 
 def test_a_texture_has_squares_of_the_size_asked_for(square):
     frame = frame_round(square.vertices, (0.5, 0.5))
-    image = textured_picture(square.vertices, skin_of(square), square.vertices * 2.0, 0.5, frame)
+    image = textured_picture(square.vertices, skin_of(square), square.vertices * 2.0 / 0.5, frame)
     middle = image[image.shape[0] // 2, :, 0]
     switches = np.flatnonzero(np.abs(np.diff(np.round((middle - TEXTURE[1][0]) / (TEXTURE[0][0] - TEXTURE[1][0])))) > 0.5)
     np.testing.assert_allclose(np.diff(switches) / image.shape[1], 0.25, atol=0.01)

@@ -12,6 +12,7 @@ from workbench.core.arrays import Floats
 from workbench.core.jacobians import determinants, signed_singular_values
 from workbench.figures.colour_scale import INVERTED, colour_scale
 from workbench.figures.mesh_pictures import (
+    OFF_CORNERS,
     Skin,
     coloured_picture,
     frame_round,
@@ -211,8 +212,8 @@ def _draw_source(cell: Axes, problem: Problem, skin: Skin, view: Floats | None, 
     mesh = problem.mesh
     points = mesh.vertices if view is None else mesh.vertices @ view.T
     frame = frame_round(points)
-    square = texture_square(mesh, problem.total_measure)
-    image = textured_picture(points, skin, column.maps[-1].positions, square, frame)
+    places = column.maps[-1].positions / texture_square(mesh, problem.total_measure) + OFF_CORNERS
+    image = textured_picture(points, skin, places, frame)
     cell.imshow(image, extent=frame.extent, origin="lower")
     cell.set_title(f"source, {column.label}", fontsize=7, pad=2, parse_math=False)
     _bare(cell)

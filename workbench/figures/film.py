@@ -18,8 +18,10 @@ from workbench.figures.figure_maps import FigureMap
 from workbench.figures.film_page import GROUNDS, INKS, Box, Cell, FilmPage, make_page
 from workbench.figures.film_shading import Paint, Pixels, draw_triangles
 from workbench.figures.mesh_panel import PLAIN_COLOUR, Scene, colours_of, scene_of
-from workbench.figures.mesh_pictures import Frame, frame_round, shades, texture_square
+from workbench.figures.mesh_pictures import FINER, Frame, frame_round, shades
+from workbench.figures.picture_sampling import fitting
 from workbench.figures.recipe import PLAIN, TEXTURES, Panel
+from workbench.figures.texture_panel import picture_of, texture_places
 
 if TYPE_CHECKING:
     from matplotlib.cm import ScalarMappable
@@ -101,9 +103,10 @@ class FilmDrawer:
         film.check(len(stills))
         self.film = film
         self._first = FigureMap("", mesh, stills[0].positions(), np.empty(0, np.int64))
-        self._square = texture_square(mesh, float(self._first.elements.rest_measures.sum()))
         for panel in film.panels:
             scene_of(self._first, panel)  # makes what all frames share
+        self._pictures = [picture_of(panel) for panel in film.panels]
+        self._fitted: dict[int, Floats] = {}
         frames = self._frames(stills, look)
         self._paints = self._fitted_paints(stills, look)
         cells = [self._cell(i, frame) for i, frame in enumerate(frames)]
@@ -192,10 +195,8 @@ class FilmDrawer:
 
     def _paint(self, index: int, scene: Scene) -> Paint:
         panel, moved = self.film.panels[index], scene.map
-        if panel.colour in TEXTURES:
-            white = np.ones((len(scene.skin.triangles), 3))
-            coordinates = scene.drawn(moved.positions) / self._square
-            paint = Paint(white, coordinates, TEXTURES.index(panel.colour))
+        if panel.is_textured:
+            paint = self._texture(index, scene)
         else:
             values = moved.values(measure_of(panel))[scene.skin.simplex] if panel.has_measure else None
             paint = Paint(colours_of(scene, self._paints.get(index), values, self._plain), np.empty((0, 2)))
@@ -204,6 +205,16 @@ class FilmDrawer:
         if scene.is_flat:
             return paint
         return replace(paint, colours=paint.colours * shades(scene.points, scene.skin)[:, None])
+
+    def _texture(self, index: int, scene: Scene) -> Paint:
+        white, places = np.ones((len(scene.skin.triangles), 3)), texture_places(scene)
+        picture = self._pictures[index]
+        if picture is None:
+            return Paint(white, places, TEXTURES.index(scene.panel.colour))
+        if index not in self._fitted:  # once: a picture that is made smaller here and not there would flicker
+            density = FINER * self._frames_of[index].density
+            self._fitted[index] = fitting(picture, places, scene.points * density, scene.skin.triangles)
+        return Paint(white, places[:, :2], picture=self._fitted[index])
 
 
 def _filling(frame: Frame, box: Box) -> Frame:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numba
 import numpy as np
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from workbench.core.arrays import Floats, Integers
 from workbench.engine.compile_elsewhere import compile_elsewhere
-from workbench.figures.mesh_pictures import FINER, LINE, RINGS, TEXTURE
+from workbench.figures.mesh_pictures import BETWEEN, FINE_LINE, FINER, LINE, RINGS, TEXTURE
+from workbench.figures.picture_sampling import picture_colour
 from workbench.figures.raster import rasterise
 from workbench.figures.recipe import TEXTURES
 
 Pixels = NDArray[np.uint8]
 GRID, CIRCLES, STRIPES = (TEXTURES.index(name) for name in ("grid", "circles", "stripes"))
-OFF_CORNERS = 0.37
-"""Squares by which a texture is shifted: a flat side of a solid often lies at a round coordinate."""
+NO_PICTURE = np.empty((0, 0, 3))
 EDGE_REACH = 0.35
 """Half the width of an edge, in pixels of the film."""
 
@@ -29,15 +29,17 @@ class Paint:
     Parameters
     ----------
     colours : (k, 3) float64         in [0, 1], one a triangle
-    coordinates : (n, c) float64     of the points in a texture, in squares of it; no rows: `colours` count
+    places : (n, c) float64          of the points in a texture (see `TextureLook`); no rows: `colours` count
     texture : int                    place in `TEXTURES`
+    picture : (r, c, 3) float64      in [0, 1], in place of a texture; no rows: there is none
     edge : (3,) float64              colour of edges
     strength : float                 in [0, 1], of edges; 0: none are drawn
     """
 
     colours: Floats
-    coordinates: Floats
+    places: Floats
     texture: int = 0
+    picture: Floats = field(default_factory=lambda: NO_PICTURE)
     edge: tuple[float, float, float] = (0.2, 0.2, 0.2)
     strength: float = 0.0
 
@@ -57,8 +59,8 @@ def draw_triangles(points: Floats, triangles: Integers, layers: Integers, paint:
     heights = _heights(finer[:, :2], triangles) if paint.strength > 0 else np.zeros((1, 3))
     _shade(
         raster.triangle, raster.weights, triangles, np.ascontiguousarray(paint.colours), np.array(TEXTURE),
-        np.ascontiguousarray(paint.coordinates, dtype=np.float64), paint.texture, heights, np.array(paint.edge),
-        paint.strength, EDGE_REACH * FINER, FINER, picture,
+        np.ascontiguousarray(paint.places, dtype=np.float64), paint.texture, np.ascontiguousarray(paint.picture), heights,
+        np.array(paint.edge), paint.strength, EDGE_REACH * FINER, FINER, picture,
     )  # fmt: skip
 
 
@@ -75,11 +77,13 @@ def _heights(points: Floats, triangles: Integers) -> Floats:
 def _ink(place, texture):  # type: ignore[no-untyped-def]
     """Whether a place (c,) of a texture is dark: the same as `is_inked`, for one place; 1 or 0."""
     tile, square, line = 0, 0.0, 0
+    fine = FINE_LINE if len(place) == 2 else 0.0
     for k in range(len(place)):
         cell = np.floor(place[k])
         tile += int(cell)
         square += (place[k] - cell - 0.5) ** 2
-        line = max(line, int(place[k] - cell < LINE))
+        within = place[k] - cell
+        line = max(line, int(abs(within - 0.5) > 0.5 - LINE or abs(within - BETWEEN) < fine))
     if texture == GRID:
         return line
     if texture == CIRCLES:
@@ -92,12 +96,12 @@ def _ink(place, texture):  # type: ignore[no-untyped-def]
 
 @numba.njit(nogil=True, cache=True, error_model="numpy")
 def _shade(  # type: ignore[no-untyped-def]
-    seen, weights, triangles, colours, inks, coordinates, texture, heights, edge, strength, reach, finer, picture
+    seen, weights, triangles, colours, inks, places, texture, pattern, heights, edge, strength, reach, finer, picture
 ):
     height, width = picture.shape[:2]
     share = 1.0 / (finer * finer)
-    is_textured = coordinates.shape[0] > 0
-    mixed, place = np.empty(3), np.empty(coordinates.shape[1])
+    is_textured = places.shape[0] > 0
+    mixed, place, laid = np.empty(3), np.empty(places.shape[1]), np.ones(3)
     for row in range(height):
         for column in range(width):
             covered = 0
@@ -110,18 +114,20 @@ def _shade(  # type: ignore[no-untyped-def]
                         continue
                     covered += 1
                     a, b, c = weights[y, x, 0], weights[y, x, 1], weights[y, x, 2]
-                    ink = 0
                     if is_textured:
                         i0, i1, i2 = triangles[t, 0], triangles[t, 1], triangles[t, 2]
-                        for k in range(coordinates.shape[1]):
-                            place[k] = a * coordinates[i0, k] + b * coordinates[i1, k] + c * coordinates[i2, k] + OFF_CORNERS
-                        ink = _ink(place, texture)
+                        for k in range(places.shape[1]):
+                            place[k] = a * places[i0, k] + b * places[i1, k] + c * places[i2, k]
+                        if pattern.shape[0] > 0:
+                            picture_colour(pattern, place[0], place[1], laid)
+                        else:
+                            laid[:] = inks[_ink(place, texture)]
                     dark = 0.0
                     if strength > 0.0 and min(a * heights[t, 0], b * heights[t, 1], c * heights[t, 2]) < reach:
                         dark = strength
                     for k in range(3):
                         # under a texture the colour of the triangle is how light falls on it
-                        base = colours[t, k] * inks[ink, k] if is_textured else colours[t, k]
+                        base = colours[t, k] * laid[k]
                         mixed[k] += (1.0 - dark) * base + dark * edge[k]
             if covered:
                 for k in range(3):

@@ -20,12 +20,11 @@ from workbench.figures.mesh_pictures import (
     coloured_picture,
     frame_round,
     in_strips,
-    texture_square,
-    textured_picture,
     view_of,
 )
-from workbench.figures.recipe import NO_GLYPHS, TEXTURES, Panel
+from workbench.figures.recipe import NO_GLYPHS, Panel
 from workbench.figures.solid_panel import seen_of, veiled, with_made
+from workbench.figures.texture_panel import TexturedScene, picture_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -75,7 +74,7 @@ class Scene:
     @property
     def is_vector(self) -> bool:
         """Whether its triangles are drawn as paths where there are not too many."""
-        return self.is_flat and self.panel.colour not in TEXTURES
+        return self.is_flat and not self.panel.is_textured
 
 
 def scene_of(map: FigureMap, panel: Panel) -> Scene:
@@ -113,8 +112,9 @@ def draw_scene(
     def whole(image: Floats, part: Frame) -> Floats:
         return veiled(image if carried is None else carried.below(image, scene, part), scene, part)
 
-    if scene.panel.colour in TEXTURES:
-        _picture(axes, in_strips(lambda part: whole(_textured(scene, part), part), frame), frame)
+    if scene.panel.is_textured:
+        texture = TexturedScene(scene, frame, picture_of(scene.panel))
+        _picture(axes, in_strips(lambda part: whole(texture.draw(part), part), frame), frame)
     else:
         colours = colours_of(scene, paint, values)
         if as_vectors:
@@ -161,13 +161,6 @@ def _beyond(paint: ScalarMappable) -> tuple[float, float]:
     """A value below the colours and one above, which every norm takes: what lies further out is drawn alike."""
     low, high = paint.get_clim()
     return (0.5 * low, 2.0 * high) if low > 0 else (low - (high - low), high + (high - low))
-
-
-def _textured(scene: Scene, frame: Frame) -> Floats:
-    map = scene.map
-    square = texture_square(map.mesh, float(map.elements.rest_measures.sum()))
-    coordinates = scene.drawn(map.positions)
-    return textured_picture(scene.points, scene.skin, coordinates, square, frame, scene.panel.colour)
 
 
 def _picture(axes: Axes, image: Floats, frame: Frame) -> None:

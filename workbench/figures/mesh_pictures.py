@@ -10,6 +10,7 @@ import numpy as np
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.facets import facet_table
 from workbench.core.mesh import Mesh
+from workbench.figures.picture_sampling import sampled
 from workbench.figures.raster import Raster, rasterise
 from workbench.figures.recipe import CHEQUERED
 
@@ -22,8 +23,12 @@ FINER = 2
 SQUARES = 14
 """Of the chequered texture along the side of a square as large as the source."""
 TEXTURE = ((0.96, 0.95, 0.92), (0.20, 0.38, 0.58))
-LINE = 0.12
-"""Width of the lines of a grid, in its cells."""
+LINE, FINE_LINE = 1 / 32, 1 / 128
+"""Half the width of the lines of a grid, and of the fine ones between them in the plane, in its cells."""
+BETWEEN = 61 / 128
+"""Where the fine lines are: in the middle of what the others leave, to a pixel of the views."""
+OFF_CORNERS = 0.37
+"""Squares by which a texture is shifted that is fitted to a map: a flat side of a solid often lies at a round coordinate."""
 RINGS = (0.18, 0.38, 0.45)
 """Radii of a disc, and of the ring round it, of circles."""
 LIGHT = np.array([-0.35, 0.5, 0.8]) / np.linalg.norm([-0.35, 0.5, 0.8])
@@ -132,16 +137,17 @@ def coloured_picture(points: Floats, skin: Skin, colours: Floats, frame: Frame, 
 
 
 def textured_picture(
-    points: Floats, skin: Skin, coordinates: Floats, square: float, frame: Frame, pattern: str = CHEQUERED
+    points: Floats, skin: Skin, places: Floats, frame: Frame, pattern: str = CHEQUERED, picture: Floats | None = None
 ) -> Floats:
-    """An image (h, w, 4) of triangles under a texture, one of `TEXTURES`.
+    """An image (h, w, 4) of triangles under a texture, one of `TEXTURES`, or under a picture (r, c, 3).
 
-    `coordinates` : (n, 2|3) texture coordinates of the vertices;  `square` : side of a square in them
+    `places` : (n, 2|3) of the vertices in squares of the texture, or in the picture (see `TextureLook`)
     """
     raster = _raster(points, skin, frame, None)
-    # off the corners of squares: a flat side of a solid often lies at a round coordinate
-    places = raster.of_vertices(skin.triangles, coordinates) / square + 0.37
-    image = np.array(TEXTURE)[is_inked(places, pattern).astype(np.int64)]
+    if picture is None:
+        image = np.array(TEXTURE)[is_inked(raster.of_vertices(skin.triangles, places), pattern).astype(np.int64)]
+    else:
+        image = sampled(picture, raster.of_vertices(skin.triangles, places[:, :2]))
     if points.shape[1] == 3:
         image = image * raster.of_triangles(shades(points, skin))[..., None]
     return raster.averaged(image, FINER)
@@ -154,7 +160,9 @@ def is_inked(places: Floats, pattern: str) -> Booleans:
         return np.asarray(cells[..., 0] % 2 == 1)
     within = places - cells
     if pattern == "grid":
-        return np.asarray((within < LINE).any(axis=-1))
+        fine = FINE_LINE if places.shape[-1] == 2 else 0.0
+        lines = (np.abs(within - 0.5) > 0.5 - LINE) | (np.abs(within - BETWEEN) < fine)
+        return np.asarray(lines.any(axis=-1))
     if pattern == "circles":
         radius = np.linalg.norm(within - 0.5, axis=-1)
         return np.asarray((radius < RINGS[0]) | ((radius > RINGS[1]) & (radius < RINGS[2])))

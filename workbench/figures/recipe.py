@@ -9,10 +9,14 @@ from workbench.core.solid_look.look import VolumeLook
 from workbench.session.session import Session
 
 CHEQUERED = "chequered"
+PICTURE = "picture"
 PLAIN = "plain"
 TEXTURES = (CHEQUERED, "grid", "circles", "stripes")
-PATTERNS = (*TEXTURES, PLAIN)
-"""Colourings that are no measure: textures that are even in the map, and one colour."""
+"""Textures of two colours."""
+PATTERNS = (*TEXTURES, PICTURE, PLAIN)
+"""Colourings that are no measure: textures that are even in the map or in the source, a picture, and one colour."""
+PLACES = ("map", "source")
+"""What a texture is laid out in."""
 KINDS = ("map", "source", "histogram", "curves", "colour-bar", "empty")
 BACKGROUNDS = ("white", "transparent")
 QUANTITIES = {"energy": "energy", "gradient-norm": "gradient norm", "inverted": "inverted"}
@@ -81,6 +85,21 @@ class CarriedLook:
 
 
 @dataclass(frozen=True)
+class TextureLook:
+    """How a texture lies: a point x of the map, or of the source, is at matrix x + offset of it.
+
+    There a field of a board or a stripe has the side 1, as has the cell of a grid or of circles, and a picture goes from 0
+    to 1, its first row at the top, and is repeated. `of` is one of `PLACES`;  `matrix` has a row for each coordinate of the
+    texture, of which all but a picture have as many as what they are laid out in;  `picture` is a PNG or JPEG.
+    """
+
+    of: str = PLACES[0]
+    matrix: tuple[tuple[float, ...], ...] = ((1.0, 0.0), (0.0, 1.0))
+    offset: tuple[float, ...] = (0.0, 0.0)
+    picture: str = ""
+
+
+@dataclass(frozen=True)
 class Panel:
     """A part of the page.
 
@@ -100,6 +119,10 @@ class Panel:
     bar : bool            a colour bar below
     caption : str         above; empty for the label of the map, where there is one
     edges, anchors : bool     whether they are drawn
+    wires : bool          nothing but the sides of triangles, in their colours
+    seams, boundary : bool    lines where the texture of the file jumps, and round a surface
+    scale_bar : bool      a round length in the lower right corner
+    texture : TextureLook     how a texture lies; None: fitted to the map
     glyphs : str          one of `GLYPHS`: lines along principal stretches, or images of circles; `glyph_count` at the most,
                           `glyph_size` times as large as usual
     look : SolidLook      how a solid is looked into; None: from outside
@@ -124,6 +147,11 @@ class Panel:
     caption: str = ""
     edges: bool = False
     anchors: bool = True
+    wires: bool = False
+    seams: bool = False
+    boundary: bool = False
+    scale_bar: bool = False
+    texture: TextureLook | None = None
     glyphs: str = NO_GLYPHS
     glyph_count: int = 300
     glyph_size: float = 1.0
@@ -137,6 +165,10 @@ class Panel:
     def is_picture(self) -> bool:
         """Whether it shows a mesh."""
         return self.kind in ("map", "source")
+
+    @property
+    def is_textured(self) -> bool:
+        return self.colour in TEXTURES or self.colour == PICTURE
 
     @property
     def has_measure(self) -> bool:

@@ -10,7 +10,20 @@ from typing import Any
 
 from workbench.core.errors import WorkbenchError
 from workbench.figures.look_text import look_of, plain_look
-from workbench.figures.recipe import BACKGROUNDS, GLYPHS, KINDS, QUANTITIES, CarriedLook, MapChoice, Page, Panel, Recipe
+from workbench.figures.recipe import (
+    BACKGROUNDS,
+    GLYPHS,
+    KINDS,
+    PICTURE,
+    QUANTITIES,
+    CarriedLook,
+    MapChoice,
+    Page,
+    Panel,
+    Recipe,
+    TextureLook,
+)
+from workbench.figures.texture_text import TEXTURE, texture_of
 from workbench.io.atomic import write_text
 from workbench.io.opening import SAMPLE
 from workbench.io.read import read_bytes
@@ -67,7 +80,15 @@ def with_paths(recipe: Recipe, change: Callable[[str], str]) -> Recipe:
         own = {field: changed(getattr(choice, field)) for field in OWN_FILES}
         return replace(choice, session=replace(choice.session, **places), **own)
 
-    return replace(recipe, maps=tuple(moved(choice) for choice in recipe.maps))
+    def laid(panel: Panel) -> Panel:
+        texture = panel.texture
+        return replace(panel, texture=texture and replace(texture, picture=changed(texture.picture)))
+
+    return replace(
+        recipe,
+        maps=tuple(moved(choice) for choice in recipe.maps),
+        panels=tuple(laid(panel) for panel in recipe.panels),
+    )
 
 
 def _relative(name: str, folder: Path) -> str:
@@ -89,12 +110,14 @@ def plain_of(recipe: Recipe) -> dict[str, Any]:
 
 
 def _plain_panel(panel: Panel) -> dict[str, Any]:
-    own = tuple(name for name in PANEL if name not in ("look", "carried"))
+    own = tuple(name for name in PANEL if name not in ("look", "carried", "texture"))
     plain = {"kind": panel.kind, **differing(panel, Panel(), own)}
     if panel.look is not None:
         plain["look"] = plain_look(panel.look)
     if panel.carried is not None:
         plain["carried"] = differing(panel.carried, CarriedLook(), tuple(CARRIED))
+    if panel.texture is not None:
+        plain["texture"] = differing(panel.texture, TextureLook(), tuple(TEXTURE))
     return plain
 
 
@@ -154,6 +177,8 @@ def _panel_of(plain: Any, what: str, page: Page, names: list[str]) -> Panel:
         raise WorkbenchError(f"{what} names no maps; {panel.kind} needs one at least.")
     if panel.kind in ("histogram", "colour-bar") and not panel.has_measure:
         raise WorkbenchError(f"{what}: {panel.colour} has no values for a {panel.kind}; name a distortion, or another measure.")
+    if panel.colour == PICTURE and panel.is_picture and not (panel.texture and panel.texture.picture):
+        raise WorkbenchError(f"{what} shows a picture and names none; name a PNG or JPEG in its texture.")
     if panel.kind == "colour-bar" and not panel.scale:
         raise WorkbenchError(f"{what}: a colour bar of its own belongs to a scale; name the scale of the maps that share it.")
     if panel.span > page.columns:
@@ -245,6 +270,11 @@ PANEL: dict[str, schema.Check] = {
     "caption": _caption,
     "edges": schema.flag,
     "anchors": schema.flag,
+    "wires": schema.flag,
+    "seams": schema.flag,
+    "boundary": schema.flag,
+    "scale_bar": schema.flag,
+    "texture": texture_of,
     "glyphs": schema.one_of(GLYPHS),
     "glyph_count": _whole(1, MOST_GLYPHS),
     "glyph_size": _within(0.05, 20.0),

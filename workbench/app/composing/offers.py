@@ -10,11 +10,10 @@ from workbench.app.composing.figure_work import NAME, Subject
 from workbench.app.history import COLUMNS
 from workbench.app.new_file import stem_of
 from workbench.app.sessions.restoring import with_anchors
-from workbench.app.views.textures import PATTERNS
+from workbench.app.views.textures import PATTERNS, Pattern
 from workbench.core.measure import Measure
 from workbench.core.run import HistoryRow
-from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, CarriedLook, Panel, SolidLook
-from workbench.figures.recipe import PATTERNS as FIGURE_PATTERNS
+from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, PICTURE, PLAIN, CarriedLook, Panel, SolidLook
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
@@ -97,8 +96,14 @@ def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
     panel = replace(panel, **_glyphs(window, "source" if kind == "source" else "target"))
     panel = replace(panel, carried=_carried(window, pane))
     if style in PATTERNS:
-        return replace(panel, colour=style if style in FIGURE_PATTERNS else CHEQUERED)
+        return replace(panel, **_pattern(window, style))  # type: ignore[arg-type]
     return _coloured(window, window.colouring.range_of(pane), replace(panel, bar=True))
+
+
+def _pattern(window: MainWindow, style: Pattern) -> dict[str, Any]:
+    """A pattern as it lies on every view."""
+    is_board = style == "checkerboard" or (style == PICTURE and not window.texturing.has_picture)
+    return {"colour": CHEQUERED if is_board else style, "texture": None if style == PLAIN else window.texturing.look(style)}
 
 
 def _look(window: MainWindow) -> SolidLook | None:

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 PAGE = Page(width=120.0, columns=1)
 """On which a single picture stands."""
-WITHOUT_PICTURE = "A checkerboard stands for the picture; File > Screenshot of shows it as it lies."
 
 
 class Exporting(QObject):
@@ -119,10 +118,7 @@ class Exporting(QObject):
             return
         order = Order(subject, PAGE, (offer.panel,))
         bind = session_binder(self._window, path)
-        panes = {"Source": self._window.source, "Target": self._window.target}
-        has_picture = words in panes and self._window.colouring.style_of(panes[words]) == "picture"
-        notes = (WITHOUT_PICTURE,) if has_picture else ()
-        self._start(lambda: (*notes, *save(order, Path(path), bind)), path)
+        self._start(lambda: save(order, Path(path), bind), path)
 
     def save_picture(self, image: QImage, path: str) -> None:
         """Write a picture that was taken."""

@@ -10,11 +10,13 @@ from weakref import ref
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from workbench.app.texturing.squares import squares_of
 from workbench.app.views.camera import Points
-from workbench.app.views.geometry import Geometry
+from workbench.app.views.geometry import DisplayFrame, Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.textures import Pattern, Pixels, Texture
 from workbench.core.errors import WorkbenchError
+from workbench.figures.recipe import TextureLook
 from workbench.io.picture import read_picture
 
 OTHER_SIZE = 1.8
@@ -79,23 +81,55 @@ class Texturing(QObject):
 
         A surface in space has no flat place of its own: there it is always the map.
         """
+        geometry = self._basis()
+        return None if geometry is None else self._placed(geometry.points)
+
+    def _basis(self) -> Geometry | None:
+        """What the pattern is laid out in."""
         source, target = self._source.geometry_shown, self._target.geometry_shown
         if source is None or target is None:
             return None
-        is_surface = source.simplices.shape[1] == 3 and not source.is_flat
-        if self.layout.of_source and not is_surface:
-            return source.points
+        if self._is_of(source):
+            return source
         self._fit(target)
-        return np.asarray((target.points - self._centre) / np.float32(self._unit))
+        return target
+
+    def _is_of(self, source: Geometry) -> bool:
+        is_surface = source.simplices.shape[1] == 3 and not source.is_flat
+        return self.layout.of_source and not is_surface
+
+    def _placed(self, points: Points) -> Points:
+        """Points of that in units of its diameter."""
+        source = self._source.geometry_shown
+        if source is not None and self._is_of(source):
+            return points
+        return np.asarray((points - self._centre) / np.float32(self._unit))
 
     def _unit_points(self) -> Points | None:
         """Points of the map about the middle of the square from 0 to 1, in its own units; a solid has no such square."""
         target = self._target.geometry_shown
         if target is None or not target.is_flat:
             return self._points()
-        frame, points = target.frame, np.zeros_like(target.points)
-        points[:, :2] = target.points[:, :2] / frame.scale + (frame.centre - 0.5)
-        return points
+        return _in_unit_square(target.points, target.frame)
+
+    def look(self, pattern: Pattern) -> TextureLook | None:
+        """The same on paper: how a point of the mesh comes to its place in the pattern; None while there is no mesh."""
+        geometry = self._basis()
+        if geometry is None:
+            return None
+        texture, frame = self.texture(pattern), geometry.frame
+        count = len(frame.centre)
+        probes = frame.to_display(frame.centre + np.vstack([np.zeros(count), np.eye(count) / frame.scale])).astype(np.float32)
+        points = _in_unit_square(probes, frame) if texture.fills and geometry.is_flat else self._placed(probes)
+        is_through = geometry.simplices.shape[1] == 4 and not texture.is_picture
+        places = squares_of(texture, points, is_through=is_through)
+        matrix = (places[1:] - places[0]).T * frame.scale
+        return TextureLook(
+            of="source" if geometry is self._source.geometry_shown else "map",
+            matrix=tuple(map(tuple, matrix.tolist())),
+            offset=tuple((places[0] - matrix @ frame.centre).tolist()),
+            picture=self.layout.picture if texture.is_picture else "",
+        )
 
     def _fit(self, target: Geometry) -> None:
         """Another mesh is displayed about a middle of its own, and a start may be far from the map before it in size."""
@@ -127,6 +161,13 @@ class Texturing(QObject):
                 self.take_picture(path)
             except WorkbenchError:
                 return
+
+
+def _in_unit_square(points: Points, frame: DisplayFrame) -> Points:
+    """Points of the display in the units of the mesh, about the middle of the square from 0 to 1."""
+    placed = np.zeros_like(points)
+    placed[:, :2] = points[:, :2] / frame.scale + (frame.centre - 0.5)
+    return placed
 
 
 def number_within(value: object, low: float, high: float, otherwise: float) -> float:
