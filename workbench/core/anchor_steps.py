@@ -17,6 +17,7 @@ import numpy as np
 from workbench.core.anchor_motion import anchor_groups, next_displacement
 from workbench.core.anchor_response import AnchorResponse, displacement_shapes
 from workbench.core.arrays import Floats, Integers, frozen
+from workbench.core.blocked_anchors import bounded_push, unblocked
 from workbench.core.carried_step import carried_step
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
@@ -28,8 +29,6 @@ from workbench.core.turned_steps import turned_step
 if TYPE_CHECKING:
     from workbench.core.problem import Problem
 
-BOUNDARY_PART = 0.6
-"""Part of the largest step without inversion that anchors may push: what is left lets the next correction push back."""
 PREDICTED_RISE = 0.02
 """Part of the energy that a prediction may cost; a dearer one is left to a step that weighs it."""
 LEAST_PREDICTION = 0.02
@@ -38,6 +37,8 @@ POOR_CONTRACTION = 0.7
 """A prediction that leaves more than this part of the force is poor."""
 PATIENCE = 40
 """Steps without progress, each after a relaxation, before the run counts as stalled."""
+LEAST_PROGRESS = 1e-3
+"""Part of the way left that a step has to go to count as progress."""
 CHEAP_FACTORISATION = 0.030
 """Seconds; a factorisation below this is made whenever it helps."""
 SETTLED = 1e-7
@@ -96,6 +97,11 @@ def approach_anchors(problem: Problem, state: State, interrupt: Callable[[], boo
     if not np.isfinite(direction).all():
         system.forget()
         return replace(state, status=Status.SINGULAR)
+
+    def follow(rest: Floats) -> Floats:
+        return system.solve(evaluation.gradient, rest, constraints, residual)
+
+    _, direction = unblocked(problem, x, displacement, direction, _groups(problem), follow)
     with problem.workspace.timed("line_search"):
         return _push(problem, state, evaluation.energy, evaluation.gradient, direction, interrupt)
 
@@ -105,15 +111,6 @@ def moved_anchors(problem: Problem, state: State) -> Integers:
     anchors = problem.anchors
     displacement = np.abs(anchors.hard_targets - state.positions[anchors.hard_vertices]).max(axis=1, initial=0.0)
     return np.flatnonzero(displacement > 0.1 * problem.anchor_tolerance)
-
-
-def _bounded_push(problem: Problem, x: Floats, direction: Floats) -> tuple[float, int]:
-    """First step of a push, at most 1, and the simplex that bounds it (-1 where none does)."""
-    if problem.forbids_inversions:
-        bound, simplex = largest_step(x, direction, problem.elements.simplices)
-        if BOUNDARY_PART * bound < 1.0:
-            return BOUNDARY_PART * bound, simplex
-    return 1.0, -1
 
 
 def shapes_ahead(problem: Problem, state: State, kept: AnchorResponse | None) -> Floats:
@@ -146,8 +143,10 @@ def predict_with_response(
     direction = respond(displacement)
     if direction is None:
         return None
+    displacement, direction = unblocked(problem, x, displacement, direction, _groups(problem), respond)
+    moved = moved[displacement[moved].any(axis=1)]
     with problem.workspace.timed("line_search"):
-        size, limiting = _bounded_push(problem, x, direction)
+        size, limiting = bounded_push(problem, x, direction)
         allowed = state.energy + PREDICTED_RISE * abs(state.energy)
         while size >= LEAST_PREDICTION:
             candidate = x + size * direction
@@ -264,7 +263,7 @@ def _push(
 ) -> State:
     x = state.positions
     hard = problem.anchors.hard_vertices
-    size, limiting = _bounded_push(problem, x, direction)
+    size, limiting = bounded_push(problem, x, direction)
     clean = state.inverted == 0 and problem.forbids_inversions
     slope = float(np.einsum("ij,ij->", gradient, direction))
     anchor_force, work = problem.system.anchor_forces(direction)
@@ -276,7 +275,8 @@ def _push(
     curvature = work - float(np.einsum("ij,ij->", free_gradient, direction))
     rise = max(slope, 0.0) + 0.5 * max(curvature, 0.0)
     after = None
-    for _ in range(12):
+    # Less than that is no progress, and would only press what is in the way flat: the map gives way first, or never does.
+    for _ in range(12 if size >= LEAST_PROGRESS else 0):
         if interrupt():
             return replace(state, status=Status.INTERRUPTED)
         candidate = x + size * direction
@@ -291,8 +291,9 @@ def _push(
     else:
         size, candidate, after = 0.0, x, Evaluation(energy, state.inverted, gradient)
     error = problem.anchor_error(candidate)
-    progress = state.anchor_error - error
-    stuck = 0 if progress > 1e-3 * state.anchor_error else state.approach.stuck + 1
+    before, now = _way_left(problem, x), _way_left(problem, candidate)
+    goes_on = error < (1.0 - LEAST_PROGRESS) * state.anchor_error or now < (1.0 - LEAST_PROGRESS) * before
+    stuck = 0 if goes_on else state.approach.stuck + 1
     if stuck > PATIENCE:
         return replace(state, status=Status.STALLED, limiting_simplex=limiting)
     gradient_norm = problem.free_gradient_norm(after.gradient)
@@ -313,6 +314,12 @@ def _push(
         memory=None,
         approach=Approach(refresh=poor, hold=size < 0.1, stuck=stuck, positions=candidate, evaluation=after),
     )
+
+
+def _way_left(problem: Problem, positions: Floats) -> float:
+    """Sum of the distances of the hard anchors from their targets: it falls while some go on although the worst one cannot."""
+    offset = positions[problem.anchors.hard_vertices] - problem.anchors.hard_targets
+    return float(np.linalg.norm(offset, axis=1).sum())
 
 
 def _relax(problem: Problem, state: State, energy: float, gradient: Floats, interrupt: Callable[[], bool]) -> State:
