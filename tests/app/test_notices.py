@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from workbench.app.main_window import MainWindow
+from workbench.app.notices.floating_column import FloatingColumn
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import MOST, NoticeList, level_colour
+from workbench.app.progress_bar import ProgressLine
 from workbench.app.theme import DARK, LIGHT, Theme
 from workbench.engine.messages import LogLine
 
@@ -36,6 +38,23 @@ def test_a_message_moves_no_view(window: MainWindow) -> None:
     window.error_bar.dismiss()
     QTest.qWait(10)
     assert not window.bars.isVisible(), "an empty column would take clicks from the views"
+
+
+def test_long_work_is_told_in_full_the_first_time_already(qtbot: QtBot) -> None:
+    host = QWidget()
+    qtbot.addWidget(host)
+    host.resize(600, 400)
+    column, line = FloatingColumn(host), ProgressLine(host)
+    column.add(line)
+    host.show()
+    qtbot.waitExposed(host)
+    line.begin("Kernels are being compiled, which takes about half a minute; " * 3)
+    qtbot.waitUntil(line.isVisible)
+    QTest.qWait(20)
+    label, parts = line.label, (line.label, line.bar, line.cancel_button)
+    assert all(line.rect().contains(part.geometry()) for part in parts)
+    assert label.geometry().right() < line.bar.x() and line.bar.geometry().right() < line.cancel_button.x()
+    assert label.heightForWidth(label.width()) <= label.height(), "no word is cut off"
 
 
 def test_the_same_again_is_counted_and_another_begins_anew(window: MainWindow) -> None:

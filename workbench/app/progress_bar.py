@@ -18,9 +18,11 @@ class ProgressLine(QFrame):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setObjectName("progress-line")
         layout = QHBoxLayout(self)
         layout.setContentsMargins(12, 4, 8, 4)
         self.label = QLabel(self)
+        self.label.setWordWrap(True)
         self.bar = QProgressBar(self)
         self.bar.setTextVisible(False)
         self.bar.setFixedSize(180, 12)

@@ -42,6 +42,7 @@ def style_sheet(theme: Theme) -> str:
     QToolButton#switch:checked:disabled {{ background: {theme.border}; color: {theme.faint}; border-color: {theme.border}; }}
     QFrame#palette {{ background: {theme.window}; border: 1px solid {theme.faint}; border-radius: 6px; }}
     QFrame#palette QListView {{ background: {theme.window}; }}
+    QFrame#progress-line {{ background: {theme.window}; border: 1px solid {theme.border}; border-radius: 5px; }}
     QStatusBar {{ border-top: 1px solid {theme.border}; }}
     QStatusBar::item {{ border: 0; }}
     QToolBar {{ border: 0; border-bottom: 1px solid {theme.border}; spacing: 3px; padding: 2px; }}

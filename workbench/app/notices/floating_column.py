@@ -48,4 +48,14 @@ class FloatingColumn(QWidget):
         height = column.totalHeightForWidth(width) if column.hasHeightForWidth() else column.sizeHint().height()
         height = min(max(height, 1), self._host.height() - MARGIN - BELOW)
         self.setGeometry((self._host.width() - width) // 2, self._host.height() - height - BELOW, width, height)
+        for part in self._parts:
+            _lay_out(part)
         self.raise_()
+
+
+def _lay_out(part: QWidget) -> None:
+    """Place what stands in a part: the event that shows it comes before Qt tells its layout of a new width."""
+    layout = part.layout()
+    if layout is not None:
+        layout.invalidate()
+        layout.activate()
