@@ -17,7 +17,7 @@ from workbench.core.solid_look.look import VolumeLook
 from workbench.figures import film_file
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.film import Film, FilmDrawer, Still
-from workbench.figures.film_file import FilmCancelledError, changed_part, ffmpeg, save_film, stills_of
+from workbench.figures.film_file import FilmCancelledError, changed_part, ffmpeg, save_film
 from workbench.figures.film_shading import _ink
 from workbench.figures.mesh_pictures import is_inked
 from workbench.figures.recipe import CHEQUERED, PLAIN, TEXTURES, Panel, SolidLook
@@ -33,6 +33,10 @@ SMALL = Film((TARGET, COLOURED), 240, 160, 20.0)
 def frames_of(path: Path) -> list[np.ndarray]:
     with Image.open(path) as image:
         return [np.asarray(frame.convert("RGB")).astype(int) for frame in ImageSequence.Iterator(image)]
+
+
+def stills_of(maps: list[np.ndarray], captions: list[str]) -> list[Still]:
+    return [Still(lambda x=x: x, caption) for x, caption in zip(maps, captions, strict=True)]
 
 
 def seconds_of(path: Path) -> float:

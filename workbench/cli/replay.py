@@ -115,7 +115,7 @@ def _write(options: argparse.Namespace, record: SessionRecord, opened: OpenedSou
     anchors = found.problem.anchors
     with filling(options.out) as folder:
         case = folder / "map.npz"
-        held = {"anchor_vertices": anchors.vertices, "anchor_targets": anchors.targets}
+        held: dict[str, Any] = {"anchor_vertices": anchors.vertices, "anchor_targets": anchors.targets}
         for path in (case, folder / ("map.obj" if opened.kind != "volume" else "map.vtu")):
             write_map(path, opened.file.mesh, opened.mesh, positions, opened.kind, **held)
         write_text(folder / "report.json", json_text(report))

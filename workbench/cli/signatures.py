@@ -59,7 +59,7 @@ def _signatures(options: argparse.Namespace) -> list[Signature]:
     from workbench.core.signature import signature
     from workbench.engine.map_file import open_map
 
-    found = []
+    found: list[Signature] = []
     for file in options.maps:
         opened = open_map(file, kind=options.map, fixes=tuple(options.fixes), tets=options.tets)
         if opened.was_mirrored:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from workbench.figures.text_fit import fit_text, text_width
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
+    from matplotlib.figure import Figure
 
     from workbench.figures.figure_maps import FigureMap
 
@@ -34,7 +35,7 @@ def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) ->
     from matplotlib.colors import LogNorm
 
     figure = axes.figure
-    bar = figure.colorbar(paint, cax=axes, orientation="horizontal", extend="max", extendfrac=0.03)
+    bar: Any = figure.colorbar(paint, cax=axes, orientation="horizontal", extend="max", extendfrac=0.03)
     bar.solids.set_rasterized(False)
     bar.solids.set_edgecolor("face")  # no hairlines between its parts
     low, high = float(bar.vmin), float(bar.vmax)
@@ -155,12 +156,17 @@ def _label_below(axes: Axes, words: str, font_size: float, room: float) -> None:
 
 def _width(axes: Axes) -> float:
     """Of axes, mm."""
-    return float(axes.get_position().width * axes.figure.get_figwidth() * 25.4)
+    return float(axes.get_position().width * _page_of(axes).get_figwidth() * 25.4)
+
+
+def _page_of(axes: Axes) -> Figure:
+    page: Any = axes.figure  # there are no figures within figures here
+    return page
 
 
 def _words(axes: Axes, below: str, left: str, font_size: float, room: float) -> None:
     _label_below(axes, below, font_size, room)
-    height = axes.get_position().height * axes.figure.get_figheight() * 25.4
+    height = axes.get_position().height * _page_of(axes).get_figheight() * 25.4
     left, size = fit_text(left, height, 0.95 * font_size)
     axes.set_ylabel(left, fontsize=size, labelpad=0.3 * font_size, parse_math=False)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)

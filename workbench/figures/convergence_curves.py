@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -113,7 +113,7 @@ def _draw(panel: Axes, name: str, axis: str, curves: Sequence[Curve]) -> None:
     finite = []
     for index, curve in enumerate(curves):
         x, y = getattr(curve, axis), getattr(curve, name)
-        style = {
+        style: dict[str, Any] = {
             "color": COLOURS[index % len(COLOURS)],
             "linestyle": DASHES[index % len(DASHES)],
             "linewidth": 1.3,

@@ -14,7 +14,6 @@ from typing import IO, Any, Protocol
 
 import numpy as np
 
-from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.figures.film import Film, FilmDrawer, Still
@@ -245,8 +244,3 @@ class Mp4Writer:
         lines = self._said.read().decode(errors="replace").strip().splitlines()
         words = lines[-1] if lines else "it ended by itself"
         return WorkbenchError(f"ffmpeg could not write the film: {words}. A GIF needs no other program.")
-
-
-def stills_of(maps: Sequence[Floats], captions: Sequence[str], anchors: tuple[int, ...] = ()) -> list[Still]:
-    """Stills of maps (n, d) that are there already."""
-    return [Still(lambda x=x: x, caption, anchors) for x, caption in zip(maps, captions, strict=True)]

@@ -89,10 +89,8 @@ def open_refinable(
         anchors = targets = None
         notes.append("The anchors of the case were left out: a fix changed its vertices.")
     if target is not None:
-        positions = map_from_file(target, source_for_kind(mesh, resolved), resolved)
-        return Refinable(
-            file, replace(mesh, texture=None), resolved, positions, None, anchors, targets, tuple(notes)
-        )  # fmt: skip
+        given = map_from_file(target, source_for_kind(mesh, resolved), resolved)
+        return Refinable(file, replace(mesh, texture=None), resolved, given, None, anchors, targets, tuple(notes))
     positions, start = file.map_positions, file.start
     if start is positions:
         start = None
@@ -132,7 +130,7 @@ def write_refined(path: str | os.PathLike[str], given: Refinable, refined: Refin
         positions, start = refined.positions[:, :width], refined.positions[:, width:]
     ending = Path(path).suffix.lower()
     lost = ending != ".npz" and given.anchor_vertices is not None
-    notes = ("The anchors are not in the file: only .npz holds them.",) if lost else ()
+    notes: tuple[str, ...] = ("The anchors are not in the file: only .npz holds them.",) if lost else ()
     if ending == ".obj":
         if positions is not None:
             mesh = replace(mesh, texture=TextureCoordinates(positions, mesh.simplices))

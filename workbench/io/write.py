@@ -124,7 +124,8 @@ def write_simplices(path: str | os.PathLike[str], mesh: Mesh, positions: Floats,
 def write_case(path: str | os.PathLike[str], arrays: Mapping[str, ArrayLike]) -> None:
     """Writes an npz case of these arrays: `V S X X0 anchors targets`, those that there are."""
     with replacing(path) as part, part.open("wb") as stream:
-        np.savez_compressed(stream, **{name: np.asarray(values) for name, values in arrays.items()})
+        plain: dict[str, Any] = {name: np.asarray(values) for name, values in arrays.items()}
+        np.savez_compressed(stream, **plain)
 
 
 def obj_text(file_mesh: Mesh, source_mesh: Mesh, positions: Floats, kind: Kind, place: Path) -> str:
