@@ -21,6 +21,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.app.fake_engine import FakeWorker
 from workbench.app.engine_bridge import WorkerMaker
+from workbench.app.inspector.body import InspectorBody
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.theme import ThemeSwitch
@@ -58,6 +59,15 @@ CHOICES = ("distortion", "distortion_parameters", "solver", "fixed_boundary", "a
 
 PATIENCE = 60_000
 """Milliseconds: whatever comes first on a machine waits for kernels that are compiled once."""
+
+
+@pytest.fixture(autouse=True, scope="session")
+def no_clock_runs_out() -> Iterator[None]:
+    """What the window gives up, or takes for another step, after seconds: a slow machine would come to that in mid-test."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("workbench.app.handling.anchor_desk.PATIENCE", 60.0)
+        patch.setattr("workbench.app.sessions.undoing.PAUSE", 60.0)
+        yield
 
 
 @pytest.fixture
@@ -119,6 +129,7 @@ def make_window(tmp_path: Path) -> Iterator[WindowMaker]:
 def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:
     """One window for the tests of a module: making one takes a second without a graphics card."""
     window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
+    window.late.finish()  # some of it would be taken for what a test has left behind
     window.bridge.start()
     while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
         QTest.qWait(20)
@@ -128,6 +139,12 @@ def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) ->
         QTest.qWait(300)
     yield window
     end_window(window)
+
+
+@pytest.fixture(scope="module")
+def kept_inspector(kept_window: MainWindow) -> InspectorBody:
+    """The pages of that window's inspector, for modules that show it."""
+    return kept_window.inspector.body
 
 
 @pytest.fixture

@@ -80,10 +80,10 @@ def test_areas_and_logarithms(bent: MainWindow, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: bool(np.isclose(dock.counts.sum(), total)))
     dock.set_logarithmic_counts(True)
     qtbot.waitUntil(lambda: dock.plot.getPlotItem().getAxis("left").logMode)
-    tops = dock._bars.opts["y0"] + dock._bars.opts["height"]
+    tops = dock.plot.bars.opts["y0"] + dock.plot.bars.opts["height"]
     filled = dock.counts > 0
     np.testing.assert_allclose(10.0 ** tops[filled], dock.counts[filled])
-    assert (dock._bars.opts["height"][~filled] == 0).all()
+    assert (dock.plot.bars.opts["height"][~filled] == 0).all()
     dock.range.set_logarithmic(False)
     qtbot.waitUntil(lambda: not dock.plot.getPlotItem().getAxis("bottom").logMode)
     dock.range.set_logarithmic(True)

@@ -18,6 +18,8 @@ from workbench.app.inspector.plane_field import to_places
 from workbench.app.main_window import MainWindow
 from workbench.engine.messages import Watch
 
+pytestmark = pytest.mark.usefixtures("kept_inspector")
+
 FORMULA, PLANE, CURVES, STAR, MIRROR = range(5)
 SLOW = 15_000
 """Milliseconds: the first analysis compiles kernels."""
@@ -29,10 +31,10 @@ def inspector(window: MainWindow, qtbot: QtBot) -> Iterator[InspectorDock]:
     dock = window.inspector
     window.document.choose(distortion="symmetric-dirichlet", distortion_parameters={})
     dock.toggle.trigger()
-    qtbot.waitUntil(dock.formula.isVisible)
+    qtbot.waitUntil(dock.body.formula.isVisible)
     yield dock
     window.brush.clear()
-    dock.tabs.setCurrentIndex(FORMULA)
+    dock.body.tabs.setCurrentIndex(FORMULA)
     if dock.isVisible():
         dock.toggle.trigger()
 
@@ -40,15 +42,15 @@ def inspector(window: MainWindow, qtbot: QtBot) -> Iterator[InspectorDock]:
 @pytest.fixture
 def plane(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> InspectorDock:
     """The dock on the page of the plane, with the simplices of a stretched map in it."""
-    inspector.tabs.setCurrentIndex(PLANE)
+    inspector.body.tabs.setCurrentIndex(PLANE)
     hand = Hand(window.target.view)
     hand.click(pixel_of(window.target.view, 0))
     begin = pixel_of(window.target.view, 272)
     hand.drag(begin, begin + QPoint(-30, 20))
     qtbot.waitUntil(lambda: window.document.snapshot.singular_values is not None)
-    qtbot.waitUntil(lambda: len(inspector.plane.plot.points.places) == 480)
-    qtbot.waitUntil(lambda: inspector.plane.plot.field is not None)
-    inspector.plane.fit()
+    qtbot.waitUntil(lambda: len(inspector.body.plane.plot.points.places) == 480)
+    qtbot.waitUntil(lambda: inspector.body.plane.plot.field is not None)
+    inspector.body.plane.fit()
     qtbot.wait(200)
     return inspector
 
@@ -77,9 +79,9 @@ def pixel_in_plot(plot, place) -> QPoint:
 
 def test_nothing_is_done_while_it_is_hidden(window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     work: list[str] = []
-    for page in window.inspector.pages:
+    for page in window.inspector.body.pages:
         monkeypatch.setattr(page, "refresh", lambda p=page: work.append(type(p).__name__))
-    monkeypatch.setattr(window.inspector.plane, "draw_points", lambda: work.append("points"))
+    monkeypatch.setattr(window.inspector.body.plane, "draw_points", lambda: work.append("points"))
     window.document.choose(distortion="mips", distortion_parameters={})
     window.document.step()
     qtbot.wait(200)
@@ -93,9 +95,9 @@ def test_singular_values_are_asked_for_by_the_plane_alone(inspector: InspectorDo
         return window.document.snapshot.singular_values is not None
 
     assert not has_values()
-    inspector.tabs.setCurrentIndex(PLANE)
+    inspector.body.tabs.setCurrentIndex(PLANE)
     qtbot.waitUntil(has_values)
-    inspector.tabs.setCurrentIndex(CURVES)
+    inspector.body.tabs.setCurrentIndex(CURVES)
     window.document.step()
     qtbot.waitUntil(lambda: not has_values())
 
@@ -136,7 +138,7 @@ def test_it_floats_and_comes_back_into_the_same_window(inspector: InspectorDock,
 
 
 def test_the_badges_follow_the_choice(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    page = inspector.formula
+    page = inspector.body.formula
     answers = {}
     for id in ("symmetric-dirichlet", "dirichlet"):
         window.document.choose(distortion=id, distortion_parameters={})
@@ -152,7 +154,7 @@ def test_the_badges_follow_the_choice(inspector: InspectorDock, window: MainWind
 
 def test_the_formula_is_drawn_and_drawn_anew_for_another(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
     pytest.importorskip("matplotlib")
-    picture = inspector.formula.picture
+    picture = inspector.body.formula.picture
     qtbot.waitUntil(lambda: picture.drawing is not None, timeout=SLOW)
     first = picture.drawing
     assert (first.ink > 128).sum() > 100
@@ -160,11 +162,11 @@ def test_the_formula_is_drawn_and_drawn_anew_for_another(inspector: InspectorDoc
     window.document.choose(distortion="sum(sigma^4) + weight/det^2", distortion_parameters={"weight": 2.0})
     qtbot.waitUntil(lambda: picture.drawing is not None and picture.drawing is not first, timeout=SLOW)
     assert r"\mathrm{weight}" in "".join(picture.drawing.terms)
-    assert "weight = 2" in inspector.formula.parameters.text()
+    assert "weight = 2" in inspector.body.formula.parameters.text()
 
 
 def test_an_analysis_that_comes_late_is_not_shown(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    page = inspector.formula
+    page = inspector.body.formula
     qtbot.waitUntil(lambda: page.badges._analysis is not None, timeout=SLOW)
     old_key, old = inspector.subject.key, page.badges._analysis
     window.document.choose(distortion="volume", distortion_parameters={})
@@ -174,7 +176,7 @@ def test_an_analysis_that_comes_late_is_not_shown(inspector: InspectorDock, wind
 
 
 def test_each_analysis_is_made_once(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    page, asked = inspector.formula, []
+    page, asked = inspector.body.formula, []
     analyser = page._analyser
     page._analyser = lambda item, n: asked.append((item.id, n)) or analyser(item, n)
     page._analyses.clear()
@@ -190,15 +192,15 @@ def test_each_analysis_is_made_once(inspector: InspectorDock, window: MainWindow
 
 @pytest.mark.parametrize("page", [FORMULA, PLANE, CURVES, STAR, MIRROR])
 def test_what_is_no_distortion_breaks_no_page(inspector: InspectorDock, window: MainWindow, qtbot: QtBot, page: int) -> None:
-    inspector.tabs.setCurrentIndex(page)
+    inspector.body.tabs.setCurrentIndex(page)
     for text in ("sum(sigma", "nobody-knows-this", "1/0", "sum(sigma^2"):
         window.document.choose(distortion=text, distortion_parameters={})
         assert inspector.subject.distortion is None
-        assert inspector.heading.error.text() == inspector.subject.sentence != ""
-        assert inspector.heading.error.isVisible()
+        assert inspector.body.heading.error.text() == inspector.subject.sentence != ""
+        assert inspector.body.heading.error.isVisible()
     window.document.choose(distortion="exp(exp(sum(sigma^2)))*sqrt(abs(sigma1 - sigma2))", distortion_parameters={})
     qtbot.wait(300)
-    assert not inspector.heading.error.isVisible()
+    assert not inspector.body.heading.error.isVisible()
     window.document.choose(distortion="arap", distortion_parameters={})
     qtbot.wait(100)
     assert inspector.subject.distortion.id == "arap"
@@ -208,20 +210,20 @@ def test_a_formula_for_the_plane_alone_says_so_in_space(inspector: InspectorDock
     window.document.choose(distortion="sum(largest(2)*sigma)", distortion_parameters={})
     assert inspector.subject.distortion is not None
     try:
-        for page in range(inspector.tabs.count()):
-            inspector.tabs.setCurrentIndex(page)
+        for page in range(inspector.body.tabs.count()):
+            inspector.body.tabs.setCurrentIndex(page)
             inspector.subject.dimension = 3
             assert inspector.subject.distortion is None
-            assert inspector.heading.error.isVisible()
+            assert inspector.body.heading.error.isVisible()
             qtbot.wait(60)
             inspector.subject.dimension = 2
-            assert not inspector.heading.error.isVisible()
+            assert not inspector.body.heading.error.isVisible()
     finally:
         inspector.subject.dimension = 2
 
 
 def test_an_analysis_that_fails_is_a_sentence(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    page = inspector.formula
+    page = inspector.body.formula
     analyser = page._analyser
 
     def fail(item: object, n: int) -> object:
@@ -239,7 +241,7 @@ def test_an_analysis_that_fails_is_a_sentence(inspector: InspectorDock, window: 
 
 
 def test_a_rectangle_in_the_plane_marks_simplices_in_the_views(plane: InspectorDock, window: MainWindow) -> None:
-    plot = plane.plane.plot
+    plot = plane.body.plane.plot
     sigma = np.abs(window.document.snapshot.singular_values)
     places = np.log10(sigma[:, [0, -1]])
     middle = np.median(places[:, 0])
@@ -257,15 +259,15 @@ def test_a_rectangle_in_the_plane_marks_simplices_in_the_views(plane: InspectorD
 
 
 def test_a_click_marks_one_simplex_and_a_click_beside_clears(plane: InspectorDock, window: MainWindow) -> None:
-    plot = plane.plane.plot
-    places = plane.plane._places
+    plot = plane.body.plane.plot
+    places = plane.body.plane._places
     lonely = int(np.argmax(places[:, 0]))
     QTest.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=pixel_in_plot(plot, places[lonely]))
     assert len(window.brush.simplices) == 1
     chosen = int(window.brush.simplices[0])
     pixels = np.abs((places[chosen] - places[lonely]) / plot.pixel_lengths())
     assert pixels.max() <= 8
-    assert f"simplex {chosen}" in plane.plane.readout.text()
+    assert f"simplex {chosen}" in plane.body.plane.readout.text()
     QTest.qWait(QApplication.doubleClickInterval() + 50)
     empty = pixel_in_plot(plot, places.min(axis=0)) + QPoint(4, 60)
     QTest.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=empty)
@@ -276,9 +278,9 @@ def test_what_is_marked_elsewhere_lights_up_in_the_plane(plane: InspectorDock, w
     rows = np.array([3, 77, 401])
     window.brush.brush(rows, "histogram")
     sigma = np.abs(window.document.snapshot.singular_values[rows][:, [0, -1]])
-    np.testing.assert_allclose(plane.plane.plot.brushed.places, to_places(sigma, True), atol=1e-6)
+    np.testing.assert_allclose(plane.body.plane.plot.brushed.places, to_places(sigma, True), atol=1e-6)
     window.brush.clear()
-    assert not len(plane.plane.plot.brushed.places)
+    assert not len(plane.body.plane.plot.brushed.places)
 
 
 def test_the_triangle_under_the_pointer_lights_up(plane: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
@@ -288,7 +290,7 @@ def test_the_triangle_under_the_pointer_lights_up(plane: InspectorDock, window: 
     expected = view.triangle_at((pixel.x(), pixel.y()))
     assert expected >= 0
     qtbot.waitUntil(lambda: window.brush.simplices.tolist() == [expected])
-    assert len(plane.plane.plot.brushed.places) == 1
+    assert len(plane.body.plane.plot.brushed.places) == 1
     Hand(view).move(QPoint(1, 1))
     qtbot.waitUntil(lambda: not len(window.brush.simplices))
 
@@ -307,14 +309,14 @@ def test_points_follow_the_map_and_inverted_ones_are_apart(plane: InspectorDock,
     begin = pixel_of(target, 136)
     hand.drag(begin, begin + QPoint(150, 0), steps=4)
     qtbot.waitUntil(lambda: window.document.snapshot.inverted.any())
-    plot = plane.plane.plot
+    plot = plane.body.plane.plot
     qtbot.waitUntil(lambda: len(plot.inverted.places) == int(window.document.snapshot.inverted.sum()))
     assert len(plot.points.places) == 480 - len(plot.inverted.places)
-    assert "inverted" in plane.plane.note.text()
+    assert "inverted" in plane.body.plane.note.text()
 
 
 def test_axes_may_be_linear(plane: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    page = plane.plane
+    page = plane.body.plane
     try:
         page.axes.setCurrentIndex(1)
         page.axes.activated.emit(1)
@@ -330,8 +332,8 @@ def test_axes_may_be_linear(plane: InspectorDock, window: MainWindow, qtbot: QtB
 
 
 def test_curves_of_others_come_and_go(inspector: InspectorDock, qtbot: QtBot) -> None:
-    inspector.tabs.setCurrentIndex(CURVES)
-    page = inspector.curves
+    inspector.body.tabs.setCurrentIndex(CURVES)
+    page = inspector.body.curves
     qtbot.waitUntil(lambda: len(page._curves) == 1)
     ids = [page.others.item(row).data(Qt.ItemDataRole.UserRole) for row in range(page.others.count())]
     entry = page.others.item(ids.index("dirichlet"))
@@ -345,8 +347,8 @@ def test_curves_of_others_come_and_go(inspector: InspectorDock, qtbot: QtBot) ->
 
 
 def test_the_vertex_of_the_star_is_pulled_by_hand(inspector: InspectorDock, qtbot: QtBot) -> None:
-    inspector.tabs.setCurrentIndex(STAR)
-    page = inspector.star
+    inspector.body.tabs.setCurrentIndex(STAR)
+    page = inspector.body.star
     qtbot.waitUntil(lambda: page.path is not None, timeout=SLOW)
     page.pull(0.0)
     assert "no triangle is inverted" in page.sentence.text()
@@ -362,9 +364,9 @@ def test_the_vertex_of_the_star_is_pulled_by_hand(inspector: InspectorDock, qtbo
 
 
 def test_a_distortion_without_barrier_says_so(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
-    inspector.tabs.setCurrentIndex(STAR)
+    inspector.body.tabs.setCurrentIndex(STAR)
     window.document.choose(distortion="dirichlet", distortion_parameters={})
-    qtbot.waitUntil(lambda: "no barrier" in inspector.star.sentence.text(), timeout=SLOW)
+    qtbot.waitUntil(lambda: "no barrier" in inspector.body.star.sentence.text(), timeout=SLOW)
 
 
 @pytest.mark.parametrize(("id", "words"), [("dirichlet", "convex along this path"), ("arap", "Not convex")])
@@ -372,8 +374,8 @@ def test_a_distortion_without_barrier_says_so(inspector: InspectorDock, window: 
 def test_the_mirror_path_tells_about_convexity(
     inspector: InspectorDock, window: MainWindow, qtbot: QtBot, id: str, words: str, dimension: int
 ) -> None:
-    inspector.tabs.setCurrentIndex(MIRROR)
-    page = inspector.mirror
+    inspector.body.tabs.setCurrentIndex(MIRROR)
+    page = inspector.body.mirror
     try:
         inspector.subject.dimension = dimension
         window.document.choose(distortion=id, distortion_parameters={})
@@ -407,7 +409,7 @@ def test_both_themes_have_every_page(make_window: WindowMaker, qtbot: QtBot) -> 
     window.inspector.toggle.trigger()
     for theme in ("dark", "light"):
         window.commands.choose_theme(theme)
-        for page in range(window.inspector.tabs.count()):
-            window.inspector.tabs.setCurrentIndex(page)
+        for page in range(window.inspector.body.tabs.count()):
+            window.inspector.body.tabs.setCurrentIndex(page)
             qtbot.wait(60)
             assert (window.inspector.grab().toImage().pixelColor(3, 60).lightness() < 80) == (theme == "dark")

@@ -19,6 +19,8 @@ from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.core.errors import WorkbenchError
 
+pytestmark = pytest.mark.usefixtures("kept_inspector")
+
 SIDES = st.integers(1, 6000)
 PLACES = st.integers(-8000, 8000)
 

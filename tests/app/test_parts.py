@@ -15,7 +15,7 @@ from tests.app.conftest import leaked_widgets
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.background import Background, silence_all
 from workbench.app.commands import boundary_vertices
-from workbench.app.docks.convergence_dock import MOST_BINS, thinned
+from workbench.app.docks.convergence_plots import MOST_BINS, thinned
 from workbench.app.error_bar import ErrorBar
 from workbench.app.history import History
 from workbench.app.meters import DragMeter, RateMeter

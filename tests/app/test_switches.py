@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import FakeWorker
 from workbench.app import switches as switches_module
-from workbench.app.docks.plots import distinct_numbers
+from workbench.app.docks.axis_numbers import distinct_numbers
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.history import History
@@ -92,17 +92,17 @@ def test_marks_stand_on_the_curves_and_say_what_was_switched(window: MainWindow,
         dock.abscissa.setCurrentIndex(abscissa)
         dock.refresh()
         place = 4.9 if abscissa else 49.0
-        for plot in dock._plots:
+        for plot in dock.plots.plots:
             box = plot.getViewBox()
             height = sum(box.viewRange()[1]) / 2
-            at = dock.graphics.mapFromScene(box.mapViewToScene(QPointF(place, height)))
-            assert "MIPS" in dock.marks.sentence_at(QPointF(at))
-            away = dock.graphics.mapFromScene(box.mapViewToScene(QPointF(place / 2, height)))
-            assert not dock.marks.sentence_at(QPointF(away))
+            at = dock.plots.mapFromScene(box.mapViewToScene(QPointF(place, height)))
+            assert "MIPS" in dock.plots.marks.sentence_at(QPointF(at))
+            away = dock.plots.mapFromScene(box.mapViewToScene(QPointF(place / 2, height)))
+            assert not dock.plots.marks.sentence_at(QPointF(away))
     dock.abscissa.setCurrentIndex(0)
     window.document.history_restarted.emit()
     dock.refresh()
-    assert not dock.marks.sentence_at(QPointF(at))
+    assert not dock.plots.marks.sentence_at(QPointF(at))
 
 
 def test_numbers_of_a_narrow_axis_differ() -> None:
@@ -121,14 +121,14 @@ def test_the_plots_stay_inside_a_narrow_dock(window: MainWindow, qtbot: QtBot) -
     dock.refresh()
     dock.setFloating(True)
     dock.resize(300, 200)
-    qtbot.waitUntil(lambda: dock.graphics.viewport().width() <= 300)
+    qtbot.waitUntil(lambda: dock.plots.viewport().width() <= 300)
     qtbot.wait(50)
     window.history.clear()
     window.history.extend(HistoryRow(i, 0.1 * i, narrow + i, narrow, 0.5, 1.0, 0, 0.0) for i in range(5))
     dock.refresh()
     qtbot.wait(50)
     dock.refresh()
-    right = max(plot.sceneBoundingRect().right() for plot in dock._plots)
-    assert right <= dock.graphics.viewport().width()
+    right = max(plot.sceneBoundingRect().right() for plot in dock.plots.plots)
+    assert right <= dock.plots.viewport().width()
     dock.setFloating(False)
     window.document.history_restarted.emit()

@@ -42,7 +42,7 @@ def test_the_next_window_shows_what_the_last_one_showed(make_window: WindowMaker
     first.quantities.range_of("mips").set_reversed(True)
     first.convergence.abscissa.setCurrentIndex(1)
     first.convergence.logarithmic.setChecked(False)
-    first.inspector.tabs.setCurrentIndex(2)
+    first.inspector.page = 2
     close(first)
 
     second = make_window()
@@ -56,7 +56,7 @@ def test_the_next_window_shows_what_the_last_one_showed(make_window: WindowMaker
     assert not second.histogram.range.is_logarithmic and not second.histogram.range.is_reversed
     assert second.maps[0].range.is_reversed
     assert second.convergence.abscissa.currentData() == "seconds" and not second.convergence.logarithmic.isChecked()
-    assert second.inspector.tabs.currentIndex() == 2
+    assert second.inspector.page == 2
     qtbot.waitUntil(lambda: "mips" in second.document.snapshot.fields)
     kept = second.view_memory.state()
     close(second)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QColor, QContextMenuEvent, QImage, QMouseEvent, QPaint
 from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
 from workbench.app.colour_range import ColourRange
-from workbench.app.docks.plots import decade_marks
+from workbench.app.docks.axis_numbers import decade_marks
 from workbench.app.range_menu import ask_ends, fill_range_menu
 from workbench.app.theme import INVERTED, LIGHT, Theme
 from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW

@@ -31,6 +31,7 @@ from workbench.app.handling.handling import Handling
 from workbench.app.help.help_desk import HelpDesk
 from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
+from workbench.app.late_parts import LateParts
 from workbench.app.layouts.layouts import Layouts
 from workbench.app.menus import fill_menus, fill_tool_bar
 from workbench.app.method_finder import MethodFinder, find_methods
@@ -117,9 +118,9 @@ class MainWindow(QMainWindow):
         small = [dock.view for dock in self.maps]
         self.look = LookTools(self.volume, self.quantities, self.source, self.target, small, self.actions_by_name)
         self.carried = CarriedView(self.document, (self.source, self.target), self.target, self)
-        self.turns.add(self.histogram.plot, self._draw_histogram)
-        self.turns.add(self.convergence.graphics, self.convergence.refresh)
-        self.turns.add(self.inspector.plane, self.inspector.plane.draw_points, self.inspector.plane.cost)
+        self.turns.add(self.histogram.place, self._draw_histogram)
+        self.turns.add(self.convergence.place, self.convergence.refresh)
+        self.inspector.made.connect(self._inspector_made)
         self._make_tools()
         self.sessions = SessionFiles(self)
         self.autosave = Autosave(self)
@@ -144,6 +145,9 @@ class MainWindow(QMainWindow):
         self._finder.found.connect(self._methods_found)
         self._finder.failed.connect(self.reporter.show_exception)
         self._finder.start_after(self.document.snapshot_taken)
+        self.late = LateParts((lambda: self.histogram.plot, lambda: self.convergence.plots), self)
+        self.late.finished.connect(self.turns.all_stale)
+        self.late.start_after(self.document.snapshot_taken)
         for part in (self.document, self.bridge):  # the last to end with the window: its other parts ask them to the end
             part.setParent(self)
 
@@ -269,6 +273,11 @@ class MainWindow(QMainWindow):
         """Colour the source by a pattern of the map, or by a quantity."""
         self.colouring.set_style(self.source, style)
 
+    def _inspector_made(self) -> None:
+        plane = self.inspector.body.plane
+        self.turns.add(plane, plane.draw_points, plane.cost)
+        self.turns.all_stale()
+
     def _draw_histogram(self) -> None:
         if self.document.shown is not None:
             self.histogram.show_snapshot(self.document.shown)
@@ -356,6 +365,7 @@ class MainWindow(QMainWindow):
             self.layouts.keep()
             self.settings.save_views(self.view_memory.state())
             self.settings.sync()
+            self.late.stop()
             self.turns.stop()
             self.presenter.stop()
             self.look.stop()

@@ -71,7 +71,7 @@ class ViewMemory:
                 "abscissa": window.convergence.abscissa.currentIndex(),
                 "logarithmic": window.convergence.logarithmic.isChecked(),
             },
-            "inspector": {"page": window.inspector.tabs.currentIndex()},
+            "inspector": {"page": window.inspector.page},
             "solid": window.volume.kept(),
             "splits": window.view_states.state(of_mesh=False),
             "pattern": window.texturing.kept(),
@@ -88,7 +88,8 @@ class ViewMemory:
         window.histogram.set_logarithmic_counts(histogram.get("logarithmic") is True)
         window.convergence.logarithmic.setChecked(curves.get("logarithmic") is not False)
         _choose(window.convergence.abscissa, curves.get("abscissa"))
-        _choose(window.inspector.tabs, _table(state, "inspector").get("page"))
+        page = _table(state, "inspector").get("page")
+        window.inspector.page = page if isinstance(page, int) else 0
         window.volume.take_kept(_table(state, "solid"))
         window.texturing.take_kept(_table(state, "pattern"))
         window.glyphs.take_kept(_table(state, "glyphs"))

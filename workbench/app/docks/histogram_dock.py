@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QMenu, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
-from workbench.app.docks.bin_brush import BinBrush
-from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
+from workbench.app.docks.plot_place import PlotPlace
 from workbench.app.docks.quantity_dock import QuantityDock
 from workbench.app.quantities import CONFORMAL_FACTOR
 from workbench.app.quantity_book import QuantityBook
 from workbench.app.range_menu import fill_range_menu
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import BRUSH, Theme
+from workbench.app.theme import Theme
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
 from workbench.core.jacobians import simplex_measures
 from workbench.core.mesh import Mesh
 from workbench.engine.messages import Snapshot
+
+if TYPE_CHECKING:
+    from workbench.app.docks.histogram_plot import HistogramPlot
 
 BINS = 64
 ORIGIN = "histogram"
@@ -44,7 +45,6 @@ class HistogramDock(QuantityDock):
         super().__init__(book, CONFORMAL_FACTOR.id, (self._menu,), parent)
         self.setObjectName("histogram")
         self._brush = brush
-        self._theme = theme
         self.is_weighted = False
         self.has_logarithmic_counts = False
         self.counts = np.zeros(0)
@@ -52,31 +52,27 @@ class HistogramDock(QuantityDock):
         self._bins: Integers = np.zeros(0, np.int64)
         self._mesh: Mesh | None = None
         self._areas: Floats | None = None
-        self._make_plot()
+        self.place = PlotPlace(self._make_plot, (200, 120), self)
+        self.place.made.connect(self.redraw_wanted)
+        self.setWidget(self.place)
         self._make_menu()
         brush.changed.connect(self._show_brush)
         self.clear()
         self.set_theme(theme)
 
-    def _make_plot(self) -> None:
-        axes: dict[str, Any] = {side: LogarithmicAxis(side) for side in ("bottom", "left")}
-        self.plot = pg.PlotWidget(self, axisItems=axes)
-        calm(self.plot.getPlotItem(), self)
-        self.plot.setMinimumSize(200, 120)
-        self.plot.setToolTip("Drag across bars to mark their simplices in every view; click to unmark.")
-        self._bars = pg.BarGraphItem(x0=[0.0], x1=[1.0], y0=0.0, height=[0.0])
-        self._marked = pg.BarGraphItem(x0=[0.0], x1=[1.0], y0=0.0, height=[0.0])
-        self._centre = pg.InfiniteLine(1.0, angle=90)
-        for item in (self._bars, self._marked, self._centre):
-            self.plot.addItem(item)
-        self._bin_brush = BinBrush(self.plot)
-        self._bin_brush.dragged.connect(self._brush_between)
-        self._bin_brush.clicked.connect(self._brush.clear)
-        body = QWidget(self)
-        layout = QVBoxLayout(body)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot)
-        self.setWidget(body)
+    def _make_plot(self, parent: QWidget) -> HistogramPlot:
+        from workbench.app.docks.histogram_plot import HistogramPlot
+
+        plot = HistogramPlot(parent)
+        plot.brush.dragged.connect(self._brush_between)
+        plot.brush.clicked.connect(self._brush.clear)
+        return plot
+
+    @property
+    def plot(self) -> HistogramPlot:
+        """The bars, made when they are first asked for."""
+        plot: HistogramPlot = self.place.plot
+        return plot
 
     def _make_menu(self) -> None:
         button = self._menu
@@ -118,22 +114,15 @@ class HistogramDock(QuantityDock):
         self._mesh, self._areas = mesh, None
 
     def set_theme(self, theme: Theme) -> None:
-        self._theme = theme
-        self.plot.setBackground(theme.view)
-        paint_axes(self.plot.getPlotItem(), theme)
-        self._centre.setPen(pg.mkPen(theme.faint, width=1, style=Qt.PenStyle.DashLine))
-        self._bars.setOpts(pen=pg.mkPen(theme.faint, width=0.6))
-        marked = QColor.fromRgbF(*BRUSH)
-        self._marked.setOpts(pen=pg.mkPen(None), brush=marked if theme.is_dark else marked.darker(210))
-        self._bin_brush.set_theme(theme)
+        self.place.set_theme(theme)
 
     # ------------------------------------------------------------------------------------------ showing
 
     def clear(self) -> None:
         self.counts = self.brushed_counts = np.zeros(0)
         self._bins = np.zeros(0, np.int64)
-        for item in (self._bars, self._marked):
-            item.setOpts(x0=[0.0], x1=[1.0], height=[0.0])
+        if self.place.is_made:
+            self.plot.show_nothing()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         values = self.values_in(snapshot)
@@ -142,31 +131,22 @@ class HistogramDock(QuantityDock):
         low, high, logarithmic = self.range.low, self.range.high, self.range.is_logarithmic
         self._bins = bin_of(values, low, high, BINS, logarithmic=logarithmic)
         self.counts = weight_in_bins(self._bins, BINS, self._weights())
-        edges = bin_edges(low, high, BINS, logarithmic=logarithmic)
+        if self.place.is_made:
+            self._draw()
+
+    def _draw(self) -> None:
+        """The bars of what is counted."""
+        logarithmic, plot = self.range.is_logarithmic, self.plot
+        edges = bin_edges(self.range.low, self.range.high, BINS, logarithmic=logarithmic)
         if logarithmic:
             edges = np.log10(edges)
-        plot = self.plot.getPlotItem()
-        for side, is_logarithmic in (("bottom", logarithmic), ("left", self.has_logarithmic_counts)):
-            plot.getAxis(side).setLogMode(is_logarithmic)
-        bottom = self._bottom()
+        plot.set_logarithmic(logarithmic, self.has_logarithmic_counts)
         colours = (self.range.colours(BINS) * 255).astype(int)
-        self._bars.setOpts(
-            x0=edges[:-1],
-            x1=edges[1:],
-            y0=bottom,
-            height=self._heights(self.counts) - bottom,
-            brushes=[QColor(*colour) for colour in colours.tolist()],
-        )
-        self._marked.setOpts(x0=edges[:-1], x1=edges[1:])
+        plot.show_bars(edges, self._heights(self.counts), self._bottom(), [QColor(*colour) for colour in colours.tolist()])
         self._show_brush()
         centre = self.range.centre
-        self._centre.setVisible(centre is not None)
-        if centre is not None:
-            self._centre.setValue(float(np.log10(centre)) if logarithmic else centre)
-        plot.setLabel("left", self._measured if self.is_weighted else "simplices")
-        self.plot.setXRange(float(edges[0]), float(edges[-1]), padding=0.01)
-        top = float(self._heights(self.counts).max())
-        self.plot.setYRange(bottom, top if top > bottom else bottom + 1.0, padding=0.04)
+        plot.show_centre(None if centre is None else float(np.log10(centre)) if logarithmic else centre)
+        plot.getPlotItem().setLabel("left", self._measured if self.is_weighted else "simplices")
 
     @property
     def _measured(self) -> str:
@@ -210,10 +190,8 @@ class HistogramDock(QuantityDock):
         chosen = chosen[chosen < len(self._bins)]
         weights = self._weights()
         self.brushed_counts = weight_in_bins(self._bins[chosen], BINS, None if weights is None else weights[chosen])
-        self._marked.setVisible(len(chosen) > 0)
-        if len(self._bins):
-            bottom = self._bottom()
-            self._marked.setOpts(y0=bottom, height=self._heights(self.brushed_counts) - bottom)
+        if self.place.is_made and len(self._bins):
+            self.plot.show_marked(self._heights(self.brushed_counts) if len(chosen) else None, self._bottom())
 
     def _brush_between(self, begin: float, end: float) -> None:
         """Brush the simplices of the bins from one place of the axis to another."""

@@ -1,91 +1,39 @@
-"""The inspector: a dock with a page for the formula and its properties, and one for each plot."""
+"""The inspector: a dock whose place in the window gives room to it, and whose pages are made when it is first shown."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import (
-    QComboBox,
-    QDockWidget,
-    QHBoxLayout,
-    QLabel,
-    QMainWindow,
-    QSizePolicy,
-    QTabWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QAction, QKeySequence, QShowEvent
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
 
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.document import Document
 from workbench.app.icons import icon
-from workbench.app.inspector.curves_page import CurvesPage
-from workbench.app.inspector.formula_page import FormulaPage
 from workbench.app.inspector.hover_brush import HoverBrush
-from workbench.app.inspector.mirror_page import MirrorPage
-from workbench.app.inspector.page import Page
-from workbench.app.inspector.plane_page import PlanePage
-from workbench.app.inspector.star_page import StarPage
 from workbench.app.inspector.subject import Subject
-from workbench.app.panels.distortion_box import title_of
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.registry import Registry
+
+if TYPE_CHECKING:
+    from workbench.app.inspector.body import InspectorBody
 
 WIDTH, LEAST_MAP = 390, 250
 """Width of the dock when it is opened, and what it leaves of the column's height to the colour maps."""
 RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
 
 
-class Heading(Page):
-    """Name of the distortion, and the dimension it is looked at in."""
-
-    def __init__(self, subject: Subject, parent: QWidget | None = None) -> None:
-        super().__init__(subject, parent)
-        self.name = QLabel(self)
-        self.name.setTextFormat(Qt.TextFormat.PlainText)
-        self.name.setWordWrap(True)
-        self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
-        font = self.name.font()
-        font.setBold(True)
-        self.name.setFont(font)
-        self.dimension = QComboBox(self)
-        for n in (2, 3):
-            self.dimension.addItem(f"n = {n}", n)
-        self.dimension.setToolTip("Triangles or tetrahedra: how many singular values there are.")
-        self.dimension.activated.connect(self._choose_dimension)
-        self.error = QLabel(self)
-        self.error.setObjectName("form-error")
-        self.error.setWordWrap(True)
-        row = QHBoxLayout()
-        row.addWidget(self.name, 1)
-        row.addWidget(self.dimension)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 4, 8, 4)
-        layout.setSpacing(3)
-        layout.addLayout(row)
-        layout.addWidget(self.error)
-
-    def refresh(self) -> None:
-        item = self.subject.distortion
-        self.error.setText(self.subject.sentence)
-        self.error.setVisible(bool(self.subject.sentence))
-        self.dimension.setCurrentIndex(self.dimension.findData(self.subject.dimension))
-        if item is None:
-            self.name.setText("")
-            return
-        self.name.setText("Typed formula" if item.id == item.formula else title_of(item))
-        self.name.setToolTip(item.formula)
-
-    def _choose_dimension(self) -> None:
-        self.subject.dimension = self.dimension.currentData()
-
-
 class InspectorDock(QDockWidget):
-    """Pages about the distortion in force; nothing is computed while they are not to be seen."""
+    """Pages about the distortion in force; nothing is computed while they are not to be seen.
+
+    They are made when the dock is first shown, or `body` asked for, which `made` tells of.
+    """
+
+    made = Signal()
 
     def __init__(self, document: Document, brush: SimplexBrush, theme: Theme, parent: QWidget | None = None) -> None:
         super().__init__("Inspector", parent)
@@ -100,35 +48,43 @@ class InspectorDock(QDockWidget):
         self.toggle.setShortcut(QKeySequence("Ctrl+I"))
         self.toggle.setToolTip("Formula, properties and plots of the distortion (Ctrl+I)")
         self.subject = Subject(document)
+        self._document = document
         self._brush = brush
         self._hover: HoverBrush | None = None
-        body = QWidget(self)
-        self.heading = Heading(self.subject, body)
-        self.formula = FormulaPage(self.subject, body)
-        self.plane = PlanePage(self.subject, document, brush, body)
-        self.curves = CurvesPage(self.subject, body)
-        self.star = StarPage(self.subject, body)
-        self.mirror = MirrorPage(self.subject, body)
-        self.tabs = QTabWidget(body)
-        self.tabs.setDocumentMode(True)
-        self.tabs.setUsesScrollButtons(True)
-        for page, name, tip in (
-            (self.formula, "Formula", "The formula and its properties"),
-            (self.plane, "Plane", "D over two singular values, with the simplices of the map"),
-            (self.curves, "Curves", "D along (s, …, s) and (s, 1/s), beside others"),
-            (self.star, "Fig. 12", "A vertex is pulled across its star"),
-            (self.mirror, "Fig. 19", "A simplex on its way to its mirror image"),
-        ):
-            self.tabs.addTab(page, name)
-            self.tabs.setTabToolTip(self.tabs.count() - 1, tip)
-        layout = QVBoxLayout(body)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.heading)
-        layout.addWidget(self.tabs, 1)
-        self.setWidget(body)
+        self._theme = theme
+        self._body: InspectorBody | None = None
+        self._page = 0
         self.setMinimumWidth(300)
         self.set_theme(theme)
+
+    @property
+    def body(self) -> InspectorBody:
+        """The pages, made now where they were not before."""
+        if self._body is None:
+            from workbench.app.inspector.body import InspectorBody
+
+            self._body = InspectorBody(self.subject, self._document, self._brush, self)
+            self._body.set_theme(self._theme)
+            if 0 <= self._page < self._body.tabs.count():
+                self._body.tabs.setCurrentIndex(self._page)
+            self.setWidget(self._body)
+            self.made.emit()
+        return self._body
+
+    @property
+    def page(self) -> int:
+        """Number of the page that is on top, or will be."""
+        return self._page if self._body is None else self._body.tabs.currentIndex()
+
+    @page.setter
+    def page(self, number: int) -> None:
+        self._page = number
+        if self._body is not None:
+            self._body.tabs.setCurrentIndex(number)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        self.body.show()
+        super().showEvent(event)
 
     # ------------------------------------------------------------------------------------------ place in the window
 
@@ -148,6 +104,7 @@ class InspectorDock(QDockWidget):
         return self.toggle
 
     def _open(self, window: QMainWindow) -> None:
+        self.body.show()
         self._make_room(window)
         self.show()
         if self._made_room:
@@ -194,22 +151,18 @@ class InspectorDock(QDockWidget):
 
     def follow_pointer(self, views: Sequence[MeshView]) -> None:
         """Mark the triangle under the pointer in these views while the plane is to be seen."""
-        self._hover = HoverBrush(self._brush, views, self.plane.isVisible)
+        self._hover = HoverBrush(self._brush, views, lambda: self._body is not None and self._body.plane.isVisible())
 
     def follow_too(self, view: MeshView) -> None:
         """The same in one more view."""
         if self._hover is not None:
             self._hover.add(view)
 
-    @property
-    def pages(self) -> tuple[Page, ...]:
-        found = (self.tabs.widget(row) for row in range(self.tabs.count()))
-        return (self.heading, *(page for page in found if isinstance(page, Page)))
-
     def set_theme(self, theme: Theme) -> None:
+        self._theme = theme
         self.toggle.setIcon(icon("inspect", theme))
-        for page in self.pages:
-            page.set_theme(theme)
+        if self._body is not None:
+            self._body.set_theme(theme)
 
     def set_registry(self, registry: Registry) -> None:
         self.subject.set_registry(registry)
@@ -218,8 +171,8 @@ class InspectorDock(QDockWidget):
         """Let threads end before the window does."""
         if self._hover is not None:
             self._hover.stop()
-        for page in self.pages:
-            page.wait()
+        if self._body is not None:
+            self._body.wait()
 
 
 def _is_in_column(window: QMainWindow, dock: QDockWidget) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QWidget
 
-from workbench.app.docks.plots import short_number
+from workbench.app.docks.axis_numbers import short_number
 from workbench.app.inspector.path_page import PathPage
 from workbench.app.inspector.path_plot import PathPlot
 from workbench.app.inspector.plane_field import colour_ends, scale_shares

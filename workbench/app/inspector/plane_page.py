@@ -7,7 +7,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from workbench.app.docks.plots import short_number
+from workbench.app.docks.axis_numbers import short_number
 from workbench.app.document import Document
 from workbench.app.inspector.gestures import inside
 from workbench.app.inspector.latest import Latest

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtWidgets import QWidget
 
-from workbench.app.docks.plots import short_number
+from workbench.app.docks.axis_numbers import short_number
 from workbench.app.inspector.path_page import PathPage
 from workbench.app.inspector.path_plot import PathPlot
 from workbench.app.inspector.plane_field import colour_ends, scale_shares

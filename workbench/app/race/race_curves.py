@@ -9,7 +9,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from workbench.app.docks.convergence_dock import thinned
+from workbench.app.docks.convergence_plots import thinned
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.docks.switch_marks import SwitchMarks
 from workbench.app.race.contestant_pane import colour_of
