@@ -221,3 +221,20 @@ def test_a_click_beside_everything_leaves_picking(window: MainWindow) -> None:
     window.actions_by_name["pin-loop"].trigger()
     QTest.mouseClick(window.target.view.overlay, LEFT, NONE, QPoint(4, 4))
     assert window.handling.pinning.deed == "" and not len(window.document.anchors)
+
+
+@pytest.mark.parametrize("name", ["select-all", "group", "ungroup", "remove", "clear", "move", "turn", "scale"])
+def test_what_finds_no_anchors_says_so_and_is_no_step(window: MainWindow, name: str) -> None:
+    said, steps = window.status.sentence, window.undoing.history.names
+    window.status.say("")
+    window.actions_by_name[name].trigger()
+    assert "nchor" in said.text() and "click" in said.text(), "and what to do"
+    assert window.undoing.history.names == steps
+
+
+def test_ungrouping_what_is_in_no_group_is_no_step(window: MainWindow) -> None:
+    pin(window, 3, 9)
+    window.document.select_all((3, 9))
+    steps = window.undoing.history.names
+    window.actions_by_name["ungroup"].trigger()
+    assert "in a group" in window.status.sentence.text() and window.undoing.history.names == steps

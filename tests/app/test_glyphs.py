@@ -70,6 +70,13 @@ def test_ellipses_are_images_of_equal_circles_and_number_and_size_are_chosen(gly
     assert before < len(drawn(glyphs, window.source.view)) <= MOST
 
 
+def test_more_and_larger_are_grey_until_there_are_some(glyphs: Glyphs, window: MainWindow) -> None:
+    amounts = [window.actions_by_name[f"glyphs-{name}"] for name in ("more", "fewer", "larger", "smaller")]
+    for kind in ("none", "stretches", "none"):
+        glyphs.choose(kind=kind)
+        assert {action.isEnabled() for action in amounts} == {kind != "none"}
+
+
 def test_they_are_seen_where_they_are_wanted_and_nowhere_else(glyphs: Glyphs, window: MainWindow, qtbot: QtBot) -> None:
     window.set_source_style("plain")
     with_lines = [pixels_of(pane.view) for pane in (window.source, window.target)]

@@ -16,6 +16,7 @@ from pytestqt.qtbot import QtBot
 
 from workbench.app.main_window import MainWindow
 from workbench.app.notices.floating_column import FloatingColumn
+from workbench.app.notices.log_dock import LogDock
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import MOST, NoticeList, level_colour
 from workbench.app.progress_bar import ProgressLine
@@ -159,3 +160,20 @@ def luminance(colour: str) -> float:
     parts = [int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def test_in_a_narrow_log_what_was_told_keeps_its_room(qtbot: QtBot, qapp: QApplication) -> None:
+    notices = NoticeList(LIGHT)
+    dock = LogDock(notices, None)
+    qtbot.addWidget(dock)
+    notices.add(Notice(logging.WARNING, "A sentence that is to be read.", "workbench.window", "its details"))
+    for width in (330, 1000):
+        dock.resize(width, 160)
+        dock.show()
+        qtbot.waitUntil(lambda w=width: dock.table.width() > 0.8 * w)  # type: ignore[misc]
+        assert dock.table.isColumnHidden(3) == (width < 500)
+        assert dock.table.columnWidth(2) > 0.35 * width and not dock.details.isVisible()
+    dock.table.selectRow(0)
+    assert dock.details.isVisible() and "its details" in dock.details.toPlainText()
+    notices.clear()
+    assert not dock.details.isVisible()

@@ -156,3 +156,10 @@ def test_what_is_shown_is_copied_and_printed(sheet_window: SheetWindow, tmp_path
     assert (tmp_path / "keys.pdf").read_bytes().startswith(b"%PDF")
     sheet_window.save(str(tmp_path / "no such folder" / "keys.pdf"))
     assert "could not be written" in sheet_window.note.text()
+
+
+def test_the_sheet_is_the_same_whatever_was_done(window: MainWindow) -> None:
+    before = sheet_of(window)
+    window.document.add_anchor(30)
+    assert "anchor" in window.actions_by_name["undo"].text()
+    assert sheet_of(window) == before

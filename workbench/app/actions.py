@@ -11,6 +11,9 @@ from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.icons import DRAWINGS, icon
 from workbench.app.theme import Theme
 
+TITLE = "title"
+"""Property of an action whose text changes: what it is called in lists that stand for good."""
+
 
 @dataclass(frozen=True)
 class ActionText:

@@ -30,6 +30,7 @@ class GlyphMenu:
             menu.addAction(action)
             action.triggered.connect(lambda on, p=place: self._show_on(p, on))
         menu.addSeparator()
+        self._amounts: list[QAction] = []
         for name, field, factor in (
             ("glyphs-more", "number", STEP),
             ("glyphs-fewer", "number", 1 / STEP),
@@ -37,6 +38,7 @@ class GlyphMenu:
             ("glyphs-smaller", "size", 1 / STEP),
         ):
             menu.addAction(actions[name])
+            self._amounts.append(actions[name])
             actions[name].triggered.connect(lambda _=False, f=field, by=factor: self._scale(f, by))
         glyphs.changed.connect(self._show)
         self._show()
@@ -53,5 +55,7 @@ class GlyphMenu:
     def _show(self) -> None:
         for kind, action in self._kinds.items():
             action.setChecked(kind == self._glyphs.choice.kind)
+        for action in self._amounts:
+            action.setEnabled(self._glyphs.choice.kind != "none")
         for place, action in self._places.items():
             action.setChecked(place in self._glyphs.choice.places)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
 
 AT_ONE_PLACE = "One anchor alone does not {}: select more (Shift+click, Shift+L), or let those near by follow it (O)."
+NO_ANCHORS = "There are no anchors: a click on a vertex sets one."
+NO_GROUP = "None of the selected anchors is in a group."
 NOTHING_SELECTED = "No anchor is selected: click one, with Shift more of them, or draw a lasso round them (Shift+L)."
 
 MENUS = (
@@ -48,11 +51,11 @@ class Handling(QObject):
             "lasso": lambda: self.arm("lasso", "anchor"),
             "select-box": lambda: self.arm("box", "select"),
             "select-lasso": lambda: self.arm("lasso", "select"),
-            "select-all": lambda: self._document.select_all(self._document.anchors.targets),
+            "select-all": self.select_every,
             "select-none": lambda: self._document.select_all(()),
             "through": self._set_through,
             "group": self.group,
-            "ungroup": self._desk.split_selected,
+            "ungroup": self.ungroup,
             "pin-loop": lambda: self.pinning.begin("loop"),
             "pin-path": lambda: self.pinning.begin("path"),
             "move": lambda: self.hold("move"),
@@ -148,6 +151,33 @@ class Handling(QObject):
             self._window.status.say(f"{len(selected)} anchors are one group now.")
         else:
             self._window.status.say(NOTHING_SELECTED.replace("No anchor is", "Fewer than two anchors are"))
+
+    def select_every(self) -> None:
+        """All anchors there are."""
+        if self._are(self._document.anchors, NO_ANCHORS):
+            self._document.select_all(self._document.anchors.targets)
+
+    def ungroup(self) -> None:
+        """Each of the selected anchors moves alone from now on."""
+        groups, selected = self._document.anchors.groups, self._document.selected_anchors
+        if self._are(selected, NOTHING_SELECTED) and self._are(set(groups) & set(selected.tolist()), NO_GROUP):
+            self._desk.split_selected()
+
+    def remove_selected(self) -> None:
+        """Let the selected anchors go."""
+        if self._are(self._document.selected_anchors, NOTHING_SELECTED):
+            self._desk.remove_selected()
+
+    def clear(self) -> None:
+        """Let all anchors go."""
+        if self._are(self._document.anchors, NO_ANCHORS):
+            self._document.clear_anchors()
+
+    def _are(self, anchors: Sized, otherwise: str) -> bool:
+        """Whether there are any; where not, a sentence says so."""
+        if not len(anchors):
+            self._window.status.say(otherwise)
+        return len(anchors) > 0
 
     # ------------------------------------------------------------------------------------------ moving
 

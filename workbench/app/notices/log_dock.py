@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, QSortFilterProxyModel, Qt, Signal
+from PySide6.QtCore import QEvent, QModelIndex, QObject, QSortFilterProxyModel, Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QApplication,
@@ -24,6 +24,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.docks.dock_title import DockTitle
+from workbench.app.file_choice import last_folder
 from workbench.app.new_file import ask_new_file
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import NoticeList
@@ -36,6 +37,9 @@ CHOICES = (
     ("Warnings and errors", logging.WARNING),
     ("Errors", logging.ERROR),
 )
+
+ROOM_FOR_ALL = 75
+"""Letters that the table is to be wide for its last column to be seen."""
 
 
 class _Filter(QSortFilterProxyModel):
@@ -98,6 +102,8 @@ class LogDock(QDockWidget):
         self.details = QPlainTextEdit(body)
         self.details.setReadOnly(True)
         self.details.setPlaceholderText("Details of the notice that is chosen")
+        self.details.hide()  # the list has the room until one is chosen
+        notices.modelReset.connect(self.details.hide)
         split = QSplitter(Qt.Orientation.Horizontal, body)
         split.addWidget(self.table)
         split.addWidget(self.details)
@@ -118,6 +124,7 @@ class LogDock(QDockWidget):
         self.level.currentIndexChanged.connect(lambda _: self._choose())
         self.search.textChanged.connect(lambda _: self._choose())
         self.table.selectionModel().currentChanged.connect(self._show_details)
+        self.table.installEventFilter(self)
         self._shown.rowsAboutToBeInserted.connect(self._look_at_end)
         self._shown.rowsInserted.connect(self._follow)
         self._is_at_end = True
@@ -138,6 +145,11 @@ class LogDock(QDockWidget):
         wide = table.fontMetrics().horizontalAdvance
         for column, text in ((0, "00:00:00"), (1, "warning"), (3, "workbench.window")):
             table.setColumnWidth(column, wide(text) + 24)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if watched is self.table and event.type() == QEvent.Type.Resize:  # what was told comes before who told it
+            self.table.setColumnHidden(3, self.table.width() < self.fontMetrics().averageCharWidth() * ROOM_FOR_ALL)
+        return super().eventFilter(watched, event)
 
     @property
     def text(self) -> str:
@@ -163,7 +175,8 @@ class LogDock(QDockWidget):
         self.raise_()
 
     def _ask_save(self) -> None:
-        ask_new_file(self, "Save the log", "workbench-log.txt", "Text (*.txt)", "txt", self.save, overwrites=True)
+        place = str(Path(last_folder(self)) / "workbench-log.txt")
+        ask_new_file(self, "Save the log", place, "Text (*.txt)", "txt", self.save, overwrites=True)
 
     def _choose(self) -> None:
         self._shown.choose(self.level.currentData(), self.search.text())
@@ -172,6 +185,7 @@ class LogDock(QDockWidget):
     def _show_details(self, index: QModelIndex) -> None:
         row = self._shown.mapToSource(index).row() if index.isValid() else -1
         notice = self._notices.notices[row] if row >= 0 else None
+        self.details.setVisible(notice is not None)
         self.details.setPlainText("" if notice is None else notice.text + ("\n\n" + notice.details if notice.details else ""))
 
     def _look_at_end(self) -> None:

@@ -11,6 +11,7 @@ REASONS = {
     "export-unit": "no surface is mapped to the plane",
     "cut": NO_SOLID,
     "uncut": NO_SOLID,
+    **dict.fromkeys((f"glyphs-{name}" for name in ("more", "fewer", "larger", "smaller")), "no glyphs are drawn"),
     **dict.fromkeys(("past-live", "past-go-on"), "the views show the newest map"),
 }
 BY_MENU = {

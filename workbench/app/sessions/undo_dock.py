@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QLabel, QListWidget, QListWidgetItem, QWidget
 
+from workbench.app.actions import TITLE
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.sessions.undoing import Undoing
 
@@ -46,6 +47,7 @@ class UndoDock(QDockWidget):
                 item.setForeground(self.palette().placeholderText())
         self.list.setCurrentRow(history.done)
         for action, verb, name in ((self._undo, "Undo", history.undo_name), (self._redo, "Redo", history.redo_name)):
+            action.setProperty(TITLE, verb)
             action.setText(f"{verb} {_begun_small(name)}" if name else verb)
             action.setEnabled(bool(name))
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from workbench.app.actions import TITLE
 from workbench.app.palette.collecting import plain
 from workbench.app.shortcuts.gestures import GESTURES, RACE_GESTURES
 
@@ -61,7 +62,7 @@ def _add(sheet: Sheet, section: str, actions: Sequence[QAction], seen: set[QActi
 
 def words_of(action: QAction) -> str:
     """The text of an action, and its tip where that says more; keys in brackets at its end are said already."""
-    text, tip = plain(action.text()).rstrip("…"), action.statusTip() or action.toolTip()
+    text, tip = plain(action.property(TITLE) or action.text()).rstrip("…"), action.statusTip() or action.toolTip()
     for key in action.shortcuts():
         tip = tip.replace(f" ({key.toString()})", "")
     return (
