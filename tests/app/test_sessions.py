@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,14 +21,18 @@ from PySide6.QtWidgets import QMessageBox, QPushButton
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
-from tests.app.fake_engine import FakeWorker
+from tests.app.fake_engine import FakeWorker, grid_mesh
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, engine_worker
 from workbench.app.main_window import MainWindow
 from workbench.app.sessions.autosave import Autosave
+from workbench.app.sessions.session_desk import Found
 from workbench.app.sessions.undoing import Undoing
 from workbench.cli import main
-from workbench.engine.session_file import read_session
+from workbench.engine.messages import Refused
+from workbench.engine.session_file import read_session, source_trouble, write_session
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
 
 LONG = 60_000
 
@@ -294,6 +299,67 @@ def test_a_missing_mesh_is_asked_for(window: MainWindow, qtbot: QtBot, tmp_path:
     assert window.document.session.source == "grid"
     box.reject()
     QTest.qWait(20)
+
+
+def opened_in(window: MainWindow, qtbot: QtBot, path: Path) -> None:
+    window.open(str(path))
+    wait_for_desk(window, qtbot)
+    qtbot.waitUntil(lambda: not window.document.opening_source and window.document.positions is not None)
+    QTest.qWait(30)
+
+
+def test_a_session_on_another_mesh_than_it_names_is_not_as_its_file_has_it(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    desk, path = window.sessions.desk, tmp_path / "mine.dwb"
+    write_session(path, SessionRecord(Session(source=str(mesh_file(tmp_path))), "0" * 64, grid_mesh().vertices))
+    found = Found(str(path), read_session(path), source_trouble(read_session(path)))
+    assert "another" in found.trouble
+    desk.open(found)
+    qtbot.waitUntil(lambda: desk.path == str(path))
+    assert window.isWindowModified(), "it is used as it is, and the file has another sha256"
+    other = tmp_path / "moved" / "grid.obj"
+    other.parent.mkdir()
+    other.write_text("v 0 0 0\n")
+    desk.open(found, str(other))
+    qtbot.waitUntil(lambda: window.document.session.source == str(other) and not window.document.opening_source)
+    assert desk.path == str(path) and window.isWindowModified()
+
+
+def test_a_session_that_does_not_fit_its_mesh_leaves_its_file_alone(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    path = tmp_path / "mine.dwb"
+    write_session(path, SessionRecord(Session(source=str(mesh_file(tmp_path))), map=np.zeros((7, 2))))
+    opened_in(window, qtbot, path)
+    assert window.error_bar.isVisible() and window.sessions.desk.path == "", "Ctrl+S would take its place"
+
+
+def test_a_session_whose_mesh_is_refused_gives_its_name_to_no_other(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    closed = tmp_path / "closed.obj"
+    closed.write_text("v 0 0 0\n")
+    path = tmp_path / "mine.dwb"
+    write_session(path, SessionRecord(Session(source=str(closed))))
+    opened_in(window, qtbot, path)
+    assert window.document.session.source == "grid" and window.sessions.desk.path == ""
+    opened_in(window, qtbot, Path("bumpy"))
+    assert window.sessions.desk.path == "" and "mine" not in window.windowTitle()
+    opened_in(window, qtbot, path)
+    window.document.try_again(("cut",))
+    qtbot.waitUntil(lambda: window.document.session.source == str(closed))
+    assert window.sessions.desk.path == str(path), "with the fix it is that session"
+    window.document.open("grid")
+    qtbot.waitUntil(lambda: window.document.session.source == "grid")
+
+
+def test_a_session_that_the_engine_refuses_leaves_the_name_of_the_present_one(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    desk, document = window.sessions.desk, window.document
+    path = tmp_path / "mine.dwb"
+    write_session(path, SessionRecord(Session(source="grid"), map=grid_mesh().vertices))
+    desk.open(Found(str(path), replace(read_session(path), session=Session(source="grid")), ""))
+    assert desk.path == str(path)
+    window.bridge.refused.emit(Refused(document.generation, "TakeUp", "It does not suit.", serial=document.anchor_serial))
+    assert desk.path == "" and window.error_bar.isVisible()
 
 
 @pytest.mark.parametrize("distortion", ["__import__('os').system('id')", "().__class__", "sigma.__class__", "no-such"])

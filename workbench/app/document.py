@@ -70,6 +70,11 @@ class Document(DocumentState):
         bridge.leg_begun.connect(self._take_leg)
 
     @property
+    def is_restoring(self) -> bool:
+        """Whether a state is to be gone to, once its mesh is open."""
+        return self._wanted is not None
+
+    @property
     def anchor_serial(self) -> int:
         """The number of the newest anchors; a snapshot tells which it holds."""
         return self._orders.anchor_serial

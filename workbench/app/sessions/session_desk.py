@@ -13,6 +13,7 @@ from workbench.app.background import Background
 from workbench.app.document import Document
 from workbench.core.distortion import Distortion
 from workbench.core.registry import registry
+from workbench.engine.messages import Refused
 from workbench.engine.session_file import (
     is_session_file,
     picture_with_session,
@@ -26,6 +27,15 @@ from workbench.session.session import Session
 from workbench.session.text import LEG_CHOICES, anchors_agree
 
 FILTERS = "Sessions (*.dwb);;Sessions without their maps (*.json)"
+
+
+@dataclass(frozen=True)
+class Name:
+    """What a session is called once its mesh `source` is open: its file, and whether that holds it as it is then."""
+
+    path: str
+    is_saved: bool
+    source: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,10 +71,12 @@ class SessionDesk(QObject):
         self.views: Callable[[], dict[str, Any] | None] = lambda: None
         self.path = ""
         self.is_modified = False
-        self._pending_path: str | None = None
+        self._pending: Name | None = None
+        self._left: tuple[str, bool] | None = None
         self._digests: dict[int, str] = {}
         document.changing.connect(self._modify)
         document.opened.connect(self._opened)
+        document.refused.connect(self._refused)
 
     @property
     def has_something(self) -> bool:
@@ -150,25 +162,42 @@ class SessionDesk(QObject):
         """Go to a session, on its own mesh or on `mesh`."""
         record = found.record
         session = replace(record.session, source=mesh) if mesh else record.session
-        self._pending_path = found.path if found.keeps_path else ""
+        path = found.path if found.keeps_path else ""
+        self._pending = Name(path, bool(path) and not (mesh or found.trouble), session.source)
         if self.has_something:
             is_recovered = not found.keeps_path and is_session_file(found.path)
             self._document.changing.emit("Recover" if is_recovered else f"Open {Path(found.path).name}", "")
         self._document.restore(session, record.map)
         self.views_found.emit(record.views)
         if not self._document.opening_source:
-            self._opened()
+            self._left = self.path, self.is_modified
+            self._take_name()
             self.said.emit(f"{Path(found.path).name} is open; its mesh was already.")
 
     # ------------------------------------------------------------------------------------------ name and mark
 
     def _opened(self) -> None:
-        path, self._pending_path = self._pending_path, None
-        self.path = path or ""
-        self.is_modified = path == ""
+        """A name that waits is that of the session on whose mesh the document is now; or it came to nothing."""
+        document = self._document
+        if self._pending is not None and not (document.is_restoring and document.session.source == self._pending.source):
+            self._pending = None
+        self._take_name()
+
+    def _take_name(self) -> None:
+        name, self._pending = self._pending, None
+        self.path = name.path if name is not None else ""
+        self.is_modified = name is not None and not name.is_saved
         self.changed.emit()
 
+    def _refused(self, report: Refused) -> None:
+        if report.command == "Session":  # its mesh is open without it: that shall not take the place of the file
+            self._take_name()
+        elif report.command == "TakeUp" and self._left is not None:  # what was there before still is
+            (self.path, self.is_modified), self._left = self._left, None
+            self.changed.emit()
+
     def _modify(self, name: str, key: str) -> None:
+        self._left = None
         if not name.startswith("Open") and not self.is_modified:
             self.is_modified = True
             self.changed.emit()
@@ -177,7 +206,7 @@ class SessionDesk(QObject):
         """The session is not as its file has it any longer, nor will be once the mesh that is being read is there."""
         self._modify("", "")
         if self._document.opening_source:
-            self._pending_path = ""
+            self._pending = Name("", False, self._document.opening_source)
 
     # ------------------------------------------------------------------------------------------ threads
 
