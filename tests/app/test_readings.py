@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from tests.app.conftest import Hand
 from workbench.app.main_window import MainWindow
 from workbench.app.views.mesh_view import MeshView
-from workbench.app.views.scale_bar import round_length
+from workbench.core.round_length import round_length
 from workbench.core.quality import simplex_table
 
 

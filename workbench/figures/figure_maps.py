@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from workbench.core.arrays import Floats, Integers
 from workbench.core.carried_surface import CarriedSurface
 from workbench.core.errors import SolverFailedError, WorkbenchError
+from workbench.core.glyph_places import GlyphPlaces
 from workbench.core.jacobians import Elements, build_elements
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
@@ -41,6 +42,8 @@ class FigureMap:
     anchors : (k,) int64           anchored vertices
     rows : tuple of HistoryRow     up to this map; empty where it comes from a file
     carried : CarriedSurface       that a solid takes along; None where there is none
+    cuts : (c, 2) int64            edges that a fix opened
+    glyph_places : dict            by their number, as they are found; shared by all maps of the source
     """
 
     title: str
@@ -49,6 +52,8 @@ class FigureMap:
     anchors: Integers
     rows: tuple[HistoryRow, ...] = ()
     carried: CarriedSurface | None = None
+    cuts: Integers = field(default_factory=lambda: np.empty((0, 2), np.int64))
+    glyph_places: dict[int, GlyphPlaces] = field(default_factory=dict, repr=False)
 
     @cached_property
     def elements(self) -> Elements:
@@ -111,7 +116,8 @@ def _map_of_file(choice: MapChoice, opened: OpenedSource) -> FigureMap:
     positions = map_from_file(choice.target, opened.mesh, opened.kind)
     positions = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)
     rows = read_history(choice.history) if choice.history else ()
-    return FigureMap(choice.title, opened.mesh, positions, _anchors(choice, opened), rows, _carried(choice, opened))
+    carried, anchors = _carried(choice, opened), _anchors(choice, opened)
+    return FigureMap(choice.title, opened.mesh, positions, anchors, rows, carried, opened.cut_edges)
 
 
 def _is_same_run(first: MapChoice, second: MapChoice) -> bool:
@@ -142,6 +148,7 @@ def _solved(choices: Sequence[MapChoice], opened: OpenedSource, interrupt: Inter
             _anchors(choice, opened),
             tuple(row for row in result.rows if row.iteration <= choice.session.iterations),
             carried,
+            opened.cut_edges,
         )
         for choice in choices
     }

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.composer import measure_of, paint_of, title_of
 from workbench.figures.figure_maps import FigureMap
+from workbench.figures.film_overlay import draw_overlay, has_overlay
 from workbench.figures.film_page import GROUNDS, INKS, Box, Cell, FilmPage, make_page
 from workbench.figures.film_shading import Paint, Pixels, draw_triangles
-from workbench.figures.mesh_panel import PLAIN_COLOUR, Scene, colours_of, scene_of
+from workbench.figures.mesh_panel import PLAIN_COLOUR, WIRE_COLOUR, Scene, colours_of, scene_of
 from workbench.figures.mesh_pictures import FINER, Frame, frame_round, shades
 from workbench.figures.picture_sampling import fitting
 from workbench.figures.recipe import PLAIN, TEXTURES, Panel
@@ -34,6 +35,8 @@ RATES = (1.0, 60.0)
 SAMPLED = 12
 """Frames to which colours are fitted."""
 DARK_PLAIN = (0.27, 0.32, 0.37)
+WIRES = {True: (0.62, 0.70, 0.78), False: WIRE_COLOUR}
+"""Colours of wires that show no measure, on dark and on light grounds."""
 EDGES = {True: (0.62, 0.68, 0.74), False: (0.30, 0.35, 0.40)}
 """Colours of edges on dark and on light grounds."""
 PLAIN_EDGES, OTHER_EDGES = 0.7, 0.25
@@ -57,6 +60,7 @@ class Film:
     ground : str                  one of `GROUNDS`
     has_captions : bool           a line below each frame
     repeats : bool                a GIF begins anew at its end
+    cuts : (c, 2) int64           edges that a fix opened, drawn with the seams
     """
 
     panels: tuple[Panel, ...]
@@ -66,6 +70,7 @@ class Film:
     ground: str = "white"
     has_captions: bool = True
     repeats: bool = True
+    cuts: Integers = field(default_factory=lambda: np.empty((0, 2), np.int64), repr=False, compare=False)
 
     def check(self, frame_count: int) -> None:
         """Raises `WorkbenchError` for what no film can be made of."""
@@ -102,7 +107,7 @@ class FilmDrawer:
     def __init__(self, film: Film, mesh: Mesh, stills: Sequence[Still], look: Callable[[], None] = lambda: None) -> None:
         film.check(len(stills))
         self.film = film
-        self._first = FigureMap("", mesh, stills[0].positions(), np.empty(0, np.int64))
+        self._first = FigureMap("", mesh, stills[0].positions(), np.empty(0, np.int64), cuts=film.cuts)
         for panel in film.panels:
             scene_of(self._first, panel)  # makes what all frames share
         self._pictures = [picture_of(panel) for panel in film.panels]
@@ -187,24 +192,34 @@ class FilmDrawer:
         scene = scene_of(moved, panel)
         left, _, bottom, _ = frame.extent
         pixels = np.column_stack([(scene.points[:, :2] - [left, bottom]) * frame.density, scene.points[:, 2:]])
-        draw_triangles(pixels, scene.skin.triangles, scene.inverted.astype(np.int64), self._paint(index, scene), picture)
+        if not panel.wires:
+            draw_triangles(pixels, scene.skin.triangles, scene.inverted.astype(np.int64), self._paint(index, scene), picture)
+        if has_overlay(panel):
+            colours = self._colours(index, scene, WIRES[self.is_dark])
+            ground = self.film.ground
+            draw_overlay(scene, frame, colours, picture, self.page.font_size, INKS[ground], GROUNDS[ground])
         if panel.anchors and len(moved.anchors):
             radius = ANCHOR_SIZE * self.page.font_size * (0.5 if len(moved.anchors) > MANY else 1.0)
             for x, y in pixels[moved.anchors, :2].tolist():
                 _disc(picture, x, len(picture) - y, radius)
 
     def _paint(self, index: int, scene: Scene) -> Paint:
-        panel, moved = self.film.panels[index], scene.map
+        panel = self.film.panels[index]
         if panel.is_textured:
             paint = self._texture(index, scene)
         else:
-            values = moved.values(measure_of(panel))[scene.skin.simplex] if panel.has_measure else None
-            paint = Paint(colours_of(scene, self._paints.get(index), values, self._plain), np.empty((0, 2)))
+            paint = Paint(self._colours(index, scene, self._plain), np.empty((0, 2)))
         if panel.edges:
             paint = replace(paint, edge=EDGES[self.is_dark], strength=PLAIN_EDGES if panel.colour == PLAIN else OTHER_EDGES)
         if scene.is_flat:
             return paint
         return replace(paint, colours=paint.colours * shades(scene.points, scene.skin)[:, None])
+
+    def _colours(self, index: int, scene: Scene, plain: tuple[float, float, float]) -> Floats:
+        """(k, 3) of the visible triangles where no texture lies on them."""
+        panel = scene.panel
+        values = scene.map.values(measure_of(panel))[scene.skin.simplex] if panel.has_measure else None
+        return colours_of(scene, self._paints.get(index), values, plain)
 
     def _texture(self, index: int, scene: Scene) -> Paint:
         white, places = np.ones((len(scene.skin.triangles), 3)), texture_places(scene)

@@ -65,7 +65,11 @@ def _placed(scene: Scene) -> tuple[PlacedGlyphs, float]:
     if map.positions.shape[1] != map.mesh.dimension:
         raise WorkbenchError("Glyphs are drawn of maps to the plane and of solids; this one takes a surface into space.")
     source = scene.drawn(map.mesh.vertices)
-    places = GlyphPlaces(map.mesh, source, scene.skin.triangles, scene.skin.simplex, panel.glyph_count)
+    places = map.glyph_places.get(panel.glyph_count) if panel.look is None else None
+    if places is None:
+        places = GlyphPlaces(map.mesh, source, scene.skin.triangles, scene.skin.simplex, panel.glyph_count)
+        if panel.look is None:  # else other faces are seen of another map
+            map.glyph_places[panel.glyph_count] = places
     stretches = places.stretches(map.positions)
     if panel.kind == "source":
         found = places.on_source(stretches, source, panel.glyph_size, as_lines=panel.glyphs == "stretches")

@@ -14,6 +14,7 @@ from workbench.figures.carried_panel import carried_layer
 from workbench.figures.colour_scale import INVERTED
 from workbench.figures.figure_maps import FigureMap
 from workbench.figures.glyph_panel import draw_glyphs
+from workbench.figures.line_panel import EDGE, EDGE_COLOUR, draw_edges, draw_features, draw_wires
 from workbench.figures.mesh_pictures import (
     Frame,
     Skin,
@@ -23,6 +24,7 @@ from workbench.figures.mesh_pictures import (
     view_of,
 )
 from workbench.figures.recipe import NO_GLYPHS, Panel
+from workbench.figures.scale_bar_panel import draw_scale_bar
 from workbench.figures.solid_panel import seen_of, veiled, with_made
 from workbench.figures.texture_panel import TexturedScene, picture_of
 
@@ -33,12 +35,12 @@ if TYPE_CHECKING:
 MOST_VECTORS = 120_000
 """Triangles of all panels of a page that are drawn as vectors; what is beyond them becomes a picture."""
 PLAIN_COLOUR = (0.80, 0.86, 0.92)
-EDGE_COLOUR = "#303030"
-EDGE = 0.12
+WIRE_COLOUR = (0.25, 0.32, 0.40)
+"""Colours of triangles, and of wires, that show neither a measure nor a texture."""
 OUTLINE = 0.45
 ANCHOR = 2.4
-"""Widths of edges and of the line round a mesh, size of an anchor, points, at 8 points of text."""
-SEAM = 0.1
+"""Width of the line round a mesh, size of an anchor, points, at 8 points of text."""
+SEAM = 0.25
 """Width of the line in a triangle's own colour that closes the hairline between it and its neighbour, points."""
 
 
@@ -74,7 +76,7 @@ class Scene:
     @property
     def is_vector(self) -> bool:
         """Whether its triangles are drawn as paths where there are not too many."""
-        return self.is_flat and not self.panel.is_textured
+        return self.panel.wires or (self.is_flat and not self.panel.is_textured)
 
 
 def scene_of(map: FigureMap, panel: Panel) -> Scene:
@@ -112,7 +114,9 @@ def draw_scene(
     def whole(image: Floats, part: Frame) -> Floats:
         return veiled(image if carried is None else carried.below(image, scene, part), scene, part)
 
-    if scene.panel.is_textured:
+    if scene.panel.wires:
+        draw_wires(axes, scene, colours_of(scene, paint, values, WIRE_COLOUR), size, as_vectors=as_vectors)
+    elif scene.panel.is_textured:
         texture = TexturedScene(scene, frame, picture_of(scene.panel))
         _picture(axes, in_strips(lambda part: whole(texture.draw(part), part), frame), frame)
     else:
@@ -126,16 +130,26 @@ def draw_scene(
                 return whole(coloured_picture(scene.points, scene.skin, colours, part, on_top), part)
 
             _picture(axes, in_strips(draw, frame), frame)
+    if scene.panel.edges and not (as_vectors or scene.panel.wires) and len(scene.skin.triangles) <= MOST_VECTORS:
+        draw_edges(axes, scene, frame, size)
+    draw_features(axes, scene, frame, size)
     if scene.is_flat and scene.map.mesh.dimension == 2:
         _outline(axes, scene, size)
         if scene.panel.anchors and len(scene.map.anchors):
             places = scene.points[scene.map.anchors]
             axes.plot(*places.T, "o", ms=ANCHOR * size, color="#0072b2", mec="black", mew=0.3 * size, zorder=4)
-    if scene.panel.glyphs != NO_GLYPHS:
-        draw_glyphs(axes, scene, frame, size)
+    draw_on_top(axes, scene, frame, size)
     left, right, bottom, top = frame.extent
     axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
+
+
+def draw_on_top(axes: Axes, scene: Scene, frame: Frame, size: float, ink: str = "#222222", paper: str = "white") -> None:
+    """The glyphs and the scale bar that a panel asks for."""
+    if scene.panel.glyphs != NO_GLYPHS:
+        draw_glyphs(axes, scene, frame, size)
+    if scene.panel.scale_bar:
+        draw_scale_bar(axes, frame, size, ink, paper)
 
 
 def frame_in(points: Floats, half: tuple[float, float], width: float, height: float, dpi: int) -> Frame:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from workbench.core.arrays import Floats
+from workbench.core.arrays import Floats, Integers
 from workbench.core.carried_surface import CarriedSurface
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh
@@ -39,6 +39,7 @@ class Subject:
     positions: Floats
     rows: tuple[HistoryRow, ...] = ()
     carried: CarriedSurface | None = None
+    cuts: Integers = field(default_factory=lambda: np.empty((0, 2), np.int64))
 
     @property
     def choice(self) -> MapChoice:
@@ -49,7 +50,7 @@ class Subject:
         from workbench.figures.figure_maps import FigureMap  # late, as all that draws: the window opens without
 
         anchors = np.array(self.session.in_force.anchor_vertices, dtype=np.int64)
-        return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows, self.carried)
+        return FigureMap(self.stem, self.mesh, self.positions, anchors, self.rows, self.carried, self.cuts)
 
 
 @dataclass(frozen=True, eq=False)

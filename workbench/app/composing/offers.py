@@ -50,7 +50,8 @@ def subject_of(window: MainWindow) -> Subject | None:
     )
     stem = stem_of(given.source)
     rows, carried = rows_of(window.history), window.carried.surface
-    return Subject(stem, session, loaded.mesh, loaded.kind, shown.positions, rows, carried)  # type: ignore[arg-type]
+    kind, cuts = loaded.kind, loaded.cut_edges
+    return Subject(stem, session, loaded.mesh, kind, shown.positions, rows, carried, cuts)  # type: ignore[arg-type]
 
 
 def rows_of(history: History) -> tuple[HistoryRow, ...]:
@@ -65,17 +66,16 @@ def rows_of(history: History) -> tuple[HistoryRow, ...]:
 
 def offers_of(window: MainWindow) -> list[Offer]:
     """The source, the target, each colour map that is open, histogram and curves, with the ranges of the window."""
-    edges = window.actions_by_name["edges"].isChecked()
     found = [
-        Offer("Source", _view(window, window.source, "source", edges)),
-        Offer("Target", _view(window, window.target, "map", edges)),
+        Offer("Source", _view(window, window.source, "source")),
+        Offer("Target", _view(window, window.target, "map")),
     ]
     for pane in window.splitting.panes:
-        panel = _view(window, pane, "source" if pane.is_source else "map", edges)
+        panel = _view(window, pane, "source" if pane.is_source else "map")
         found.append(Offer(f"{pane.title}, split off: {pane.chooser.currentText()}", panel))
     for dock in window.maps:
         quantity = window.quantities[dock.quantity]
-        bare = Panel("map", (NAME,), edges=edges, caption=" ", bar=True, view=_axes(dock.view), look=_look(window))
+        bare = Panel("map", (NAME,), caption=" ", bar=True, view=_axes(dock.view), look=_look(window), **_lines(dock.view))
         panel = _coloured(window, dock.range, bare)
         is_shown = any(offer.panel.kind == "map" and offer.panel.scale == panel.scale for offer in found)
         found.append(Offer(f"Colour map: {quantity.title}", panel, dock.isVisible() and not is_shown))
@@ -88,11 +88,11 @@ def offers_of(window: MainWindow) -> list[Offer]:
     return found
 
 
-def _view(window: MainWindow, pane: ViewPane, kind: str, edges: bool) -> Panel:
+def _view(window: MainWindow, pane: ViewPane, kind: str) -> Panel:
     """A view with its colours, or its pattern."""
     style = window.colouring.style_of(pane)
     caption = "Source" if kind == "source" else "Target"
-    panel = Panel(kind, (NAME,), caption=caption, edges=edges, view=_axes(pane.view), look=_look(window))
+    panel = Panel(kind, (NAME,), caption=caption, view=_axes(pane.view), look=_look(window), **_lines(pane.view))
     panel = replace(panel, **_glyphs(window, "source" if kind == "source" else "target"))
     panel = replace(panel, carried=_carried(window, pane))
     if style in PATTERNS:
@@ -132,6 +132,14 @@ def _glyphs(window: MainWindow, place: str) -> dict[str, Any]:
     if mesh is None or choice.kind == NO_GLYPHS or place not in choice.places:
         return {}
     return {"glyphs": choice.kind, "glyph_count": window.glyphs.count(mesh), "glyph_size": choice.size}
+
+
+def _lines(view: MeshView) -> dict[str, Any]:
+    """What a view draws beside its colours."""
+    drawing, surface = view.drawing, view.surface
+    edges = drawing.edges if drawing.edges is not None else surface is not None and surface.has_edges
+    lines = {name: getattr(drawing, name) for name in ("seams", "boundary", "scale_bar")}
+    return {"edges": bool(edges), "wires": drawing.wireframe, **lines}
 
 
 def _axes(view: MeshView) -> tuple[tuple[float, ...], ...]:

@@ -106,11 +106,16 @@ class Filming(QObject):
         plan.film.check(len(stills))
         return mesh, stills
 
+    def _plan(self, dialog: FilmDialog) -> FilmPlan:
+        """The film as the dialog has it, with what the window knows of the mesh."""
+        plan, loaded = dialog.plan, self._window.document.loaded
+        return plan if loaded is None else replace(plan, film=replace(plan.film, cuts=loaded.cut_edges))
+
     def _draw(self) -> None:
         if self.dialog is None:
             return
         try:
-            plan = self.dialog.plan
+            plan = self._plan(self.dialog)
             mesh, stills = self._stills(plan)
         except WorkbenchError as error:
             self._show_no_preview(error)
@@ -142,7 +147,7 @@ class Filming(QObject):
         if dialog is None or self.is_working:
             return
         try:
-            plan = dialog.plan
+            plan = self._plan(dialog)
             mesh, stills = self._stills(plan)
             check_film_path(path)
         except WorkbenchError as error:

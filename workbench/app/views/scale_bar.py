@@ -11,18 +11,11 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from workbench.app.theme import Theme
+from workbench.core.round_length import round_length
 
 LONGEST = 130.0
 """Pixels of the bar at most, and a third of the view."""
 MARGIN = 12.0
-
-
-def round_length(longest: float) -> float:
-    """The largest of ..., 0.1, 0.2, 0.5, 1, 2, 5, ... that is at most `longest`."""
-    if not (math.isfinite(longest) and longest > 0):
-        return 0.0
-    decade = 10.0 ** math.floor(math.log10(longest))
-    return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= longest * (1 + 1e-9))
 
 
 def paint_scale_bar(painter: QPainter, pixels_per_unit: float, area: QRectF, theme: Theme) -> None:
