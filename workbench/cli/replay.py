@@ -12,6 +12,7 @@ from workbench.cli.options import positive_count
 from workbench.cli.output import teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.core.load_report import count_of
 from workbench.engine.interrupt import InterruptFlag
 from workbench.io.json_text import json_text
 from workbench.io.tables import number
@@ -153,7 +154,8 @@ def _comparison(path: str, record: SessionRecord, found: Replayed) -> dict[str, 
 
 def _summary(report: dict[str, Any], out: str) -> str:
     session = report["session"]
-    head = f"{report['iterations']} iterations in {session['legs']} legs: energy {number(report['energy'], 12)}"
+    legs = f" in {count_of(session['legs'], 'leg')}" if session["legs"] else ""
+    head = f"{count_of(report['iterations'], 'iteration')}{legs}: energy {number(report['energy'], 12)}"
     if session["same_energy"] is None:
         words = "no energy was recorded"
     elif session["same_energy"]:

@@ -15,6 +15,7 @@ from workbench.cli.options import add_solve_options, wishes_of
 from workbench.cli.output import check_places, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
+from workbench.core.load_report import count_of
 from workbench.engine.interrupt import InterruptFlag
 from workbench.io.json_text import json_text
 from workbench.io.tables import number
@@ -151,6 +152,6 @@ def _write(
 
 def _summary(report: dict[str, Any], out: str) -> str:
     return (
-        f"{report['status']} after {report['iterations']} iterations in {report['seconds']['total']:.3g} s: "
+        f"{report['status']} after {count_of(report['iterations'], 'iteration')} in {report['seconds']['total']:.3g} s: "
         f"mean distortion {number(report['mean_distortion'], 9)}, {report['inverted']} inverted; map in {out}"
     )
