@@ -1,4 +1,4 @@
-"""PLY, MEDIT, Gmsh, VTK and VTU through meshio, behind a guard.
+"""MEDIT, Gmsh, VTK and VTU through meshio, behind a guard.
 
 meshio ends the program, prints, or raises anything at all on files that it cannot read; here every such end is a
 `MeshError`, and nothing is printed.
@@ -27,7 +27,6 @@ from workbench.io.mesh_file import finite_rows, mesh_of_file
 from workbench.io.polygons import fan
 
 FORMATS = {
-    ".ply": ("ply", "PLY"),
     ".mesh": ("medit", "MEDIT"),
     ".meshb": ("medit", "MEDIT"),
     ".msh": ("gmsh", "Gmsh"),
@@ -57,8 +56,6 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
     other vertices are dropped.
     """
     module, name = FORMATS[path.suffix.lower()]
-    if name == "PLY":
-        _check_ply_counts(path, data)
     content = _read(path, str(path), module, len(data))
     if content is None and name == "Gmsh" and ENTITIES.search(data):
         # meshio refuses files of which some parts are in physical groups and some are not: read it without the groups
@@ -110,16 +107,6 @@ def _mesh_of_blocks(path: Path, points: Any, blocks: Blocks) -> tuple[Mesh, tupl
         notes = (f"Only the tetrahedra were taken; left out: {', '.join(left_out)}.",) if left_out else ()
         return mesh_of_file(path, points, simplices), notes
     return _surface(path, points, [(kind, data) for kind, data in blocks if kind in FLAT_CELLS and len(data)])
-
-
-def _check_ply_counts(path: Path, data: bytes) -> None:
-    """meshio looks for the end of the header, and for as many elements as are promised, however long that takes."""
-    header, end, body = data.partition(b"end_header")
-    if not end:
-        raise MeshError(f"{path}: its header has no end, so it is no PLY file, or one that is cut short.")
-    for count in re.findall(rb"^element\s+\S+\s+(\d+)", header, re.MULTILINE):
-        if int(count[:20]) > len(body):
-            raise MeshError(f"{path}: it promises {count[:20].decode()} elements, more than it has bytes; it is cut short.")
 
 
 @contextlib.contextmanager

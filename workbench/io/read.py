@@ -13,12 +13,13 @@ from workbench.io.cases import CaseParts, read_mat, read_npz
 from workbench.io.mesh_file import MeshFile
 from workbench.io.obj import read_obj
 from workbench.io.off import read_off
+from workbench.io.ply import read_ply
 from workbench.io.stl import read_stl
 
 LARGEST_FILE = 2**32
 """Bytes; a mesh of a hundred million triangles."""
 
-READABLE = (".obj", ".off", ".stl", *foreign.FORMATS, ".npz", ".mat")
+READABLE = (".obj", ".off", ".ply", ".stl", *foreign.FORMATS, ".npz", ".mat")
 """Endings of the files that can be read."""
 
 
@@ -44,6 +45,9 @@ def read_mesh(path: str | os.PathLike[str], *, tets: bool = False, linearise: bo
         if ending == ".off":
             mesh, notes = read_off(path, data)
             return MeshFile(mesh, str(path), "OFF", digest, notes=notes)
+        if ending == ".ply":
+            mesh, notes = read_ply(path, data)
+            return MeshFile(mesh, str(path), "PLY", digest, notes=notes)
         if ending == ".stl":
             mesh, notes = read_stl(path, data)
             return MeshFile(mesh, str(path), "STL", digest, notes=notes)
