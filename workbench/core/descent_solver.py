@@ -86,7 +86,7 @@ def direction_in_metric(problem: Problem, values: Floats, gradient: Floats, shif
 
 
 def direction_in_laplacian(problem: Problem, gradient: Floats) -> Floats:
-    """-K^-1 gradient for the Laplacian of the source (see `LaplacianSystem`), factored once; else as above."""
+    """-K^-1 gradient (n, d) for the Laplacian of the source (see `LaplacianSystem`), factored once; else as above."""
     laplacian = problem.workspace.laplacian
     laplacian.serve(problem.anchors)
     direction = laplacian.direction(gradient, problem.free_constraints)

@@ -43,7 +43,7 @@ def with_previous_map(following: State, state: State) -> State:
 
 
 def moved_state(problem: Problem, state: State, positions: Floats) -> State | None:
-    """`state` at another map, with energy and gradient there; None where that map is not allowed or not finite."""
+    """`state` at another map (n, d), with energy and gradient there; None where that map is not allowed or not finite."""
     evaluation = problem.evaluate(positions, 1)
     allowed = evaluation.inverted <= problem.most_inverted(state.inverted)
     if not (allowed and math.isfinite(evaluation.energy) and np.isfinite(evaluation.gradient).all()):

@@ -52,7 +52,7 @@ def make_pair(step: Floats, difference: Floats, initial: Callable[[Floats], Floa
 
 
 def quasi_newton_direction(gradient: Floats, pairs: tuple[Pair, ...], initial: Callable[[Floats], Floats]) -> Floats:
-    """-H gradient by the two loops over the pairs; `initial` is the H that they begin with.
+    """-H gradient, (n, d) as the gradient, by the two loops over the pairs; `initial` is the H that they begin with.
 
     Source: Nocedal & Wright 2006, algorithm 7.4.
     """

@@ -35,7 +35,7 @@ def largest_step_without_inversion(positions: Floats, direction: Floats, simplic
 
 
 def largest_step(positions: Floats, direction: Floats, simplices: Integers) -> tuple[float, int]:
-    """As `largest_step_without_inversion`, and the simplex that sets it (-1 where none does)."""
+    """As `largest_step_without_inversion`, and the number of the simplex that sets it (-1 where none does)."""
     x = np.ascontiguousarray(positions, dtype=np.float64)
     d = np.ascontiguousarray(direction, dtype=np.float64)
     kernel = _largest_step_2d if simplices.shape[1] == 3 else _largest_step_3d

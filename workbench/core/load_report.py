@@ -53,7 +53,7 @@ def plural(noun: str) -> str:
 
 
 def first_few(numbers: Integers, most: int = 3) -> str:
-    """`4, 7, 9, ...`: the first numbers of a list of offenders."""
+    """`4, 7, 9, ...`: the first of the numbers (k,) of offenders."""
     shown = ", ".join(str(number) for number in numbers[:most])
     return shown + (", ..." if len(numbers) > most else "")
 

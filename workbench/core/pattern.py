@@ -82,7 +82,7 @@ class HessianPattern:
 
 
 def vertex_graph(simplices: Integers, vertex_count: int) -> scipy.sparse.csr_matrix:
-    """Symmetric adjacency of the vertices (pattern only), indices sorted, no diagonal."""
+    """Symmetric adjacency (n, n) of the vertices of simplices (m, k), pattern only; indices sorted, no diagonal."""
     width = simplices.shape[1]
     pairs = [(a, b) for a in range(width) for b in range(width) if a != b]
     rows = np.concatenate([simplices[:, a] for a, _ in pairs])
@@ -94,7 +94,7 @@ def vertex_graph(simplices: Integers, vertex_count: int) -> scipy.sparse.csr_mat
 
 
 def elimination_order(graph: scipy.sparse.csr_matrix) -> Integers:
-    """Nested dissection of the vertices by METIS, or minimum degree where METIS is missing."""
+    """Nested dissection of the vertices by METIS, (n,), or minimum degree where METIS is missing."""
     try:
         import pymetis
 

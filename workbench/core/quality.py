@@ -104,7 +104,7 @@ def _verdicts(mesh: Mesh, positions: Floats) -> dict[str, Any]:
 
 
 def statistics(values: Floats, weights: Floats) -> dict[str, float]:
-    """Mean, extremes, percentiles and area-weighted mean of values a simplex; infinities stay infinite."""
+    """Mean, extremes, percentiles and area-weighted mean of values (m,), of weights (m,); infinities stay infinite."""
     with np.errstate(invalid="ignore"):
         return {
             "mean": float(values.mean()),

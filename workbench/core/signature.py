@@ -109,7 +109,7 @@ def densities(item: Signature, edges: Floats) -> Floats:
 
 
 def l1_distance(first: Signature, second: Signature, edges: Floats) -> float:
-    """Integral of the difference of two normalised histograms, in [0, 2]; it depends on the bins."""
+    """Integral of the difference of two normalised histograms, in [0, 2]; it depends on the bins, with ends (b + 1,)."""
     return float(np.abs(masses(first, edges) - masses(second, edges)).sum())
 
 
@@ -143,7 +143,7 @@ class Distances:
 
 
 def distances(signatures: Sequence[Signature], edges: Floats) -> Distances:
-    """How far every two signatures are apart; symmetric, 0 on the diagonal. Cost: O(k^2 m log m)."""
+    """How far every two of k signatures are apart, histograms with bins between edges (b + 1,). Cost: O(k^2 m log m)."""
     count = len(signatures)
     l1, wasserstein = np.zeros((count, count)), np.zeros((count, count))
     for i in range(count):

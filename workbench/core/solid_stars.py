@@ -60,7 +60,7 @@ def overlapping_edges(tetrahedra: Integers, boundary: Integers, positions: Float
 
 
 def dihedral_range(tetrahedra: Integers, positions: Floats) -> tuple[float, float]:
-    """Smallest and largest dihedral angle of all tetrahedra, in degrees."""
+    """Smallest and largest dihedral angle of all tetrahedra (m, 4) at positions (n, 3), in degrees."""
     corners = np.concatenate([tetrahedra[:, list(order)] for order in _EDGES])
     angles = np.degrees(_dihedral_angles(corners, positions))
     return float(angles.min()), float(angles.max())

@@ -134,7 +134,7 @@ def flipped_triangles(triangles: Integers, sphere: Floats) -> Integers:
 
 
 def without_flips(triangles: Integers, sphere: Floats) -> Floats:
-    """The map with vertices near flipped triangles moved to the middle of their neighbours, as far as that helps."""
+    """The map (n, 3) with vertices near flipped triangles moved to the middle of their neighbours, as far as that helps."""
 
     def flipped(places: Floats) -> Integers:
         return flipped_triangles(triangles, places)

@@ -66,7 +66,7 @@ def make_start(
 
 
 def adjusted_start(mesh: Mesh, kind: Kind, start: Floats, match_area: bool) -> Floats:
-    """The start reflected where all of it is mirrored, and scaled to the area of the source where asked."""
+    """The start (n, d) reflected where all of it is mirrored, and scaled to the area of the source where asked."""
     elements = build_elements(mesh)
     det = determinants(elements, start)
     if kind == "parameterize" and (det < 0).all():

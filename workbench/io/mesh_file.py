@@ -55,7 +55,7 @@ def mesh_of_file(
     polygons: Integers | None = None,
     attributes: FaceAttributes | None = None,
 ) -> Mesh:
-    """A mesh with the name of its file; `MeshError` names the file for whatever does not fit."""
+    """A mesh of vertices (n, 2|3) and simplices (m, 3|4), named as its file; `MeshError` names it for what does not fit."""
     vertices = np.asarray(vertices, dtype=np.float64)
     try:
         mesh = Mesh(vertices, simplices, shown_name(path.name), texture, polygons, attributes=attributes)
@@ -68,7 +68,7 @@ def mesh_of_file(
 
 
 def check_range(path: Path, vertices: Floats) -> None:
-    """Raises `MeshError` for coordinates too large to compute with."""
+    """Raises `MeshError` for coordinates (n, 2|3) too large to compute with."""
     too_large = np.abs(vertices) > LARGEST_COORDINATE
     if too_large.any():
         row = int(np.flatnonzero(too_large.any(axis=1))[0])

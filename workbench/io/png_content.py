@@ -18,6 +18,7 @@ MOST_CHUNKS = 1_000_000
 
 
 def is_png(data: bytes) -> bool:
+    """Whether the bytes begin as those of a PNG do."""
     return data[: len(SIGNATURE)] == SIGNATURE
 
 

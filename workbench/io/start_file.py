@@ -61,7 +61,7 @@ def leads_into_space(positions: Floats, mesh: Mesh) -> bool:
 
 
 def fit_dimension(path: Path, positions: Floats, mesh: Mesh, kind: Kind) -> Floats:
-    """`positions` with as many columns as maps of this kind have; flat ones in space lose their plane.
+    """`positions` (n, 2|3) with as many columns as maps of this kind have; flat ones in space lose their plane.
 
     In a tilted plane the side seen is that from which most of the area is positively oriented.
     """

@@ -49,6 +49,7 @@ def path(what: str, value: Any, longest: int = LONGEST_PATH) -> str:
 
 
 def flag(what: str, value: Any) -> bool:
+    """True or false, no number in their place."""
     if not isinstance(value, bool):
         raise refuse(what, value, "true or false")
     return value
@@ -69,6 +70,7 @@ def number(what: str, value: Any, lowest: float = -LARGEST_COORDINATE, highest: 
 
 
 def amount(what: str, value: Any) -> float:
+    """A finite number that is not negative."""
     return number(what, value, 0.0)
 
 
@@ -80,6 +82,7 @@ def weight(what: str, value: Any) -> float:
 
 
 def kind(what: str, value: Any) -> str:
+    """A kind of map, or auto."""
     if not isinstance(value, str) or value not in ("auto", *KINDS):
         raise refuse(what, value, f"one of auto, {', '.join(KINDS)}")
     return value

@@ -116,13 +116,13 @@ def _inherited(op: Op, v: list[Floats], e: list[Floats], out: Floats) -> Floats:
 
 
 def margin(value: Floats, error: Floats) -> Floats:
-    """What rounding may account for, generously."""
+    """What rounding may account for in values (k,) with these bounds of their error (k,), generously: (k,)."""
     result: Floats = 16.0 * error + ROUNDING * np.abs(value)
     return result
 
 
 def descending(sigma: Floats) -> Floats:
-    """Rows sorted from the largest to the smallest."""
+    """Rows of singular values (..., n) sorted from the largest to the smallest."""
     return -np.sort(-np.asarray(sigma, dtype=np.float64), axis=-1)
 
 

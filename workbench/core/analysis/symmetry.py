@@ -55,5 +55,5 @@ def symmetry(density: Density) -> Property:
 
 
 def inverse(sigma: Floats) -> Floats:
-    """Singular values of the inverse map, descending again."""
+    """Singular values (..., n) of the inverse map, descending again."""
     return 1.0 / np.asarray(sigma, dtype=np.float64)[..., ::-1]

@@ -16,7 +16,8 @@ STRIP = 512
 def eliminate_columns(factor: Floats, panel: int, columns: int, height: int) -> bool:
     """Cholesky factor of the top `columns` x `columns` of a panel (`height` rows) at `factor[panel]`, and the rows below it.
 
-    False where a pivot is not positive and finite.
+    Panels stand one after another in `factor` (entries,), each column by column. False where a pivot is not positive and
+    finite.
     """
     routines = dense_routines()
     base = factor.ctypes.data + 8 * panel
@@ -47,7 +48,10 @@ def eliminate_columns(factor: Floats, panel: int, columns: int, height: int) -> 
 
 
 def update_matrix(factor: Floats, panel: int, columns: int, height: int, workspace: Floats, scratch: int) -> None:
-    """The lower triangle of -B B^T into `workspace[scratch]`, B the rows of the panel below its first `columns`."""
+    """The lower triangle of -B B^T into `workspace[scratch]`, B the rows of the panel below its first `columns`.
+
+    `factor` is as for `eliminate_columns`; the result (height - columns, height - columns) stands column by column.
+    """
     routines = dense_routines()
     below = height - columns
     source, target = factor.ctypes.data + 8 * (panel + columns), workspace.ctypes.data + 8 * scratch

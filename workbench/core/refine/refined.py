@@ -62,7 +62,7 @@ def refine(mesh: Mesh, positions: ArrayLike | None = None, scheme: str = "linear
 def refined_levels(
     mesh: Mesh, positions: ArrayLike | None = None, scheme: str = "linear", levels: int = 1
 ) -> Iterator[Refined]:
-    """The mesh as it is, then after each level; see `refine`."""
+    """The mesh as it is, and a map (n, d) where there is one, then after each level; see `refine`."""
     check_refinement(mesh, scheme, levels)
     given = None if positions is None else frozen(positions)
     if given is not None and (given.ndim != 2 or len(given) != mesh.vertex_count):

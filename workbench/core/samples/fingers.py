@@ -27,7 +27,7 @@ def fingers(triangles: int) -> tuple[Floats, Integers]:
 
 
 def fingers_distance(points: Floats) -> Floats:
-    """Smooth union of a ball and the fingers, mirrored at z = 0; negative inside."""
+    """Smooth union of a ball and the fingers, mirrored at z = 0, at points (k, 3): (k,), negative inside."""
     mirrored = np.column_stack([points[:, :2], np.sqrt(points[:, 2] ** 2 + 1e-12)])
     value = np.linalg.norm(points, axis=1) - 1.0
     for degrees, height, length, radius in _FINGERS:

@@ -49,7 +49,7 @@ def bumpy_disc(triangles: int) -> tuple[Floats, Integers]:
 
 
 def hexagonal_disc(rings: int) -> tuple[Floats, Integers]:
-    """Unit disc of 6 rings^2 triangles: `rings` circles about the centre, the k-th of 6 k vertices."""
+    """Unit disc of 6 rings^2 triangles: `rings` circles about the centre, the k-th of 6 k vertices; (n, 2), (m, 3)."""
     ring = np.repeat(np.arange(1, rings + 1), 6 * np.arange(1, rings + 1))
     first = 1 + 3 * ring * (ring - 1)  # index of the first vertex of each ring
     place = np.arange(1, len(ring) + 1) - first

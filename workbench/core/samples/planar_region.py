@@ -16,7 +16,7 @@ _SMOOTHING_ROUNDS = 5
 
 
 def trace_outline(implicit: Implicit, first: tuple[float, float], step: float) -> Floats:
-    """Points along the level set 0 through a point near `first`, counter-clockwise; dense, for arc lengths.
+    """Points (k, 2) along the level set 0 through a point near `first`, counter-clockwise; dense, for arc lengths.
 
     The level set must be one smooth closed curve whose radius of curvature is well above `step`.
     """

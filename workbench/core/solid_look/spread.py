@@ -34,7 +34,7 @@ class SpreadCorners:
 
 
 def spread_faces(simplices: Integers, visible: Booleans, spread: float, vertex_count: int) -> DrawnFaces:
-    """All four faces of each visible tetrahedron, pulled apart; `vertex_count` is that of the mesh."""
+    """All four faces of each tetrahedron (m, 4) that is visible (m,), pulled apart; `vertex_count` is that of the mesh."""
     chosen = np.flatnonzero(visible)
     corners = simplices.copy()
     corners[chosen] = vertex_count + np.arange(4 * len(chosen)).reshape(-1, 4)
