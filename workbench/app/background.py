@@ -19,7 +19,7 @@ class Background(QObject):
     def __init__(self, work: Callable[[], Any], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._work = work
-        self._is_silent = False
+        self._is_silent = self._takes_too_long = False
         self._arrived.connect(self._report, Qt.ConnectionType.QueuedConnection)
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -29,8 +29,10 @@ class Background(QObject):
             self._thread.start()
 
     def wait(self, seconds: float = 10.0) -> None:
-        if self._thread.is_alive():
+        """Let the thread end; one that was waited for in vain is not waited for again by whoever asks next."""
+        if self._thread.is_alive() and not self._takes_too_long:
             self._thread.join(seconds)
+            self._takes_too_long = self._thread.is_alive()
 
     def silence(self) -> None:
         """Let the thread end, and report nothing any more, not even what is on its way: what would show it is going."""
