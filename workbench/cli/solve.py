@@ -15,7 +15,7 @@ from workbench.cli.options import add_solve_options, wishes_of
 from workbench.cli.output import check_places, teller
 from workbench.cli.threads import limit_threads
 from workbench.core.errors import WorkbenchError
-from workbench.core.load_report import count_of
+from workbench.core.nouns import count_of
 from workbench.engine.interrupt import InterruptFlag
 from workbench.io.json_text import json_text
 from workbench.io.tables import number

@@ -12,10 +12,10 @@ import numpy as np
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.errors import MeshError
 from workbench.core.jacobians import Elements, build_elements, simplex_measures
-from workbench.core.load_report import count_of
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
 from workbench.core.nearest_tetrahedron import locate
+from workbench.core.nouns import count_of
 from workbench.core.quality import simplex_table
 from workbench.core.surface_jacobians import surface_singular_values
 

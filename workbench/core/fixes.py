@@ -11,8 +11,8 @@ from workbench.core.arrays import Booleans, Integers, frozen
 from workbench.core.cutting import disc_cut
 from workbench.core.errors import WorkbenchError
 from workbench.core.facets import corner_classes, facet_table, split_vertices
-from workbench.core.load_report import count_of
 from workbench.core.mesh import Mesh
+from workbench.core.nouns import count_of
 from workbench.core.orientation import orientation_sheets, simplices_to_flip
 from workbench.core.seams import seam_pairs
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from workbench.core.errors import MeshError
 from workbench.core.fixes import apply_fixes
-from workbench.core.load_report import count_of, first_few
+from workbench.core.load_report import first_few
 from workbench.core.mesh import Mesh
 from workbench.core.method import KINDS, Kind
+from workbench.core.nouns import count_of
 from workbench.core.plane_frame import is_flat, plane_coordinates
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from workbench.core.arrays import Integers
 from workbench.core.facets import facet_table
 from workbench.core.mesh import Mesh
+from workbench.core.nouns import count_of, plural
 from workbench.core.seams import seam_pairs
 
 
@@ -39,17 +40,6 @@ def report_lines(mesh: Mesh) -> tuple[str, ...]:
         lines.append(_list_line(topology.unreferenced, "vertex", f"in no {noun}"))
     lines.append(_texture_line(mesh))
     return tuple(line for line in lines if line)
-
-
-def count_of(count: int, noun: str) -> str:
-    """`3 triangles`, `1 vertex`."""
-    return f"{count} {noun if count == 1 else plural(noun)}"
-
-
-def plural(noun: str) -> str:
-    """Plural of the few nouns that meshes need."""
-    irregular = {"vertex": "vertices", "tetrahedron": "tetrahedra"}
-    return irregular.get(noun, noun + "s")
 
 
 def first_few(numbers: Integers, most: int = 3) -> str:

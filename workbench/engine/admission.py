@@ -9,7 +9,8 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.jacobians import signed_singular_values
-from workbench.core.load_report import count_of, first_few
+from workbench.core.load_report import first_few
+from workbench.core.nouns import count_of
 from workbench.core.problem import Problem
 
 

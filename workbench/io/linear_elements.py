@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from workbench.core.arrays import Integers
-from workbench.core.load_report import count_of
 from workbench.core.mesh import Mesh
+from workbench.core.nouns import count_of
 
 CORNERS = {"triangle": 3, "quad": 4, "tetra": 4}
 """Corners of the elements that have kinds of higher order, as `tetra10`; in every one of these the corners come first."""
