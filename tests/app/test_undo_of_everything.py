@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,9 +23,9 @@ CELLS = 4
 FORMULA = "lam*symmetric_dirichlet + (1 - lam)*mips"
 
 
-def write_grid(path: Path, height: float, flipped: int) -> str:
+def write_grid(path: Path, height: float, flipped: int, cells: int = CELLS) -> str:
     """A grid over the unit square, lifted by a bump; its first `flipped` triangles are turned over."""
-    flat = grid(CELLS)
+    flat = grid(cells)
     x, y = flat.vertices.T
     z = height * x * (1 - x) * y * (1 - y)
     faces = flat.simplices.copy()
@@ -167,8 +168,8 @@ JUMP = "jump"
 @pytest.fixture(scope="module")
 def sources(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, ...]:
     folder = tmp_path_factory.mktemp("meshes")
-    kinds = (("flat", 0.0, 0), ("dome", 3.0, 0), ("flipped", 2.0, 3))
-    return tuple(write_grid(folder / f"{name}.obj", height, flipped) for name, height, flipped in kinds)
+    kinds = (("flat", 0.0, 0, CELLS), ("dome", 3.0, 0, CELLS), ("flipped", 2.0, 3, CELLS), ("small", 3.0, 0, 2))
+    return tuple(write_grid(folder / f"{name}.obj", *kind) for name, *kind in kinds)
 
 
 @example([(open_another, 1), (JUMP, 0), (reset, 0), (anchor, 5), (open_another, 2)])
@@ -215,15 +216,15 @@ def test_a_choice_that_is_refused_after_the_next_step_began_stops_no_undo(bench:
 def test_what_is_done_while_a_mesh_is_read_is_for_that_mesh_or_for_none(bench: Bench) -> None:
     document, loop = bench.document, bench.worker.loop
     bench.do(anchor, 3)
-    document.open(bench.sources[1])
-    document.add_anchor(8)
+    document.open(bench.sources[3])
+    document.add_anchor(20)  # which the other mesh does not have
     document.choose(distortion="mips")
     document.choose(initializer="harmonic")
     document.step()
     document.reset()
     document.run()
     bench.settle()
-    assert not bench.refusals and document.session.source == bench.sources[1]
+    assert not bench.refusals and document.session.source == bench.sources[3]
     assert not len(document.anchors) and loop._anchors is not None and not len(loop._anchors.vertices)
     assert document.session.distortion == "mips" == loop._choices.distortion
     assert document.session.initializer == "" == loop._reset.initializer
@@ -237,4 +238,14 @@ def test_a_mesh_that_is_refused_leaves_the_anchors_that_were_set_meanwhile(bench
     bench.settle()
     assert bench.refusals and document.session.source == bench.sources[0]
     assert tuple(document.anchors.targets) == (8,) and loop._anchors is not None and loop._anchors.vertices.tolist() == [8]
+    assert document.snapshot is not None and document.snapshot.anchor_serial == document.anchor_serial
+
+
+def test_a_state_that_the_engine_refuses_leaves_all_as_it_was(bench: Bench) -> None:
+    document = bench.document
+    bench.do(anchor, 3)
+    before = bench.now
+    document.restore(replace(document.complete_session, solver="no-such", anchor_weights=(2.0,)), document.positions)
+    bench.settle()
+    assert bench.now == before and bench.refusals
     assert document.snapshot is not None and document.snapshot.anchor_serial == document.anchor_serial
