@@ -25,6 +25,7 @@ from workbench.io.linear_elements import Blocks, is_of_higher_order, linear_bloc
 from workbench.io.memory_limit import limited_memory
 from workbench.io.mesh_file import finite_rows, mesh_of_file
 from workbench.io.polygons import fan
+from workbench.io.vtk_legacy import read_vtk_legacy
 
 FORMATS = {
     ".mesh": ("medit", "MEDIT"),
@@ -63,6 +64,9 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
             plain = Path(folder) / path.name
             plain.write_bytes(ENTITIES.sub(b"", data, count=1))
             content = _read(path, str(plain), module, len(data))
+    if content is None and path.suffix.lower() == ".vtk":
+        with contextlib.suppress(ValueError, OverflowError, IndexError, MemoryError), np.errstate(all="ignore"):
+            content = (*read_vtk_legacy(data), 0, None)
     if content is None:
         reasons = (words for mark, words in NOT_READ.items() if mark in data)
         reason = next(reasons, "it is damaged, cut short, or of another format")
