@@ -22,6 +22,7 @@ from workbench.core.arrays import Floats, Integers
 from workbench.core.errors import MeshError
 from workbench.core.mesh import Mesh
 from workbench.io.linear_elements import Blocks, is_of_higher_order, linear_blocks, without_inner_vertices
+from workbench.io.medit import read_medit_words
 from workbench.io.memory_limit import limited_memory
 from workbench.io.mesh_file import finite_rows, mesh_of_file
 from workbench.io.polygons import fan
@@ -36,6 +37,8 @@ FORMATS = {
 }
 """Ending -> module of meshio, name for people."""
 
+OWN = {".vtk": read_vtk_legacy, ".mesh": read_medit_words}
+"""Readers of our own for what meshio cannot read: bytes -> points, elements."""
 FLAT_CELLS = ("triangle", "quad", "polygon")
 IGNORED_CELLS = ("vertex", "line", "line3")
 NOT_READ = {
@@ -64,9 +67,9 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
             plain = Path(folder) / path.name
             plain.write_bytes(ENTITIES.sub(b"", data, count=1))
             content = _read(path, str(plain), module, len(data))
-    if content is None and path.suffix.lower() == ".vtk":
-        with contextlib.suppress(ValueError, OverflowError, IndexError, MemoryError), np.errstate(all="ignore"):
-            content = (*read_vtk_legacy(data), 0, None)
+    if content is None and path.suffix.lower() in OWN:
+        with contextlib.suppress(ValueError, OverflowError, LookupError, MemoryError), np.errstate(all="ignore"):
+            content = (*OWN[path.suffix.lower()](data), 0, None)
     if content is None:
         reasons = (words for mark, words in NOT_READ.items() if mark in data)
         reason = next(reasons, "it is damaged, cut short, or of another format")
