@@ -22,6 +22,7 @@ from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry
 from workbench.engine.replay import check_maps, initializer_of, problem_of, solver_of, start_of
 from workbench.io.atomic import write_text
+from workbench.io.file_names import relative_name
 from workbench.io.opening import SAMPLE, OpenedSource
 from workbench.io.write import write_case
 from workbench.session.journal import Leg
@@ -172,10 +173,8 @@ class _Writer:
         """A file as an expression, relative to the script where that can be."""
         if name.startswith(SAMPLE):
             return literal(name)
-        try:
-            return f"HERE / {literal(Path(os.path.relpath(os.path.realpath(name), self.folder)).as_posix())}"
-        except ValueError:  # on another drive
-            return literal(os.path.abspath(name))
+        found = relative_name(name, self.folder)
+        return literal(found) if os.path.isabs(found) else f"HERE / {literal(found)}"
 
     def array(self, name: str, values: Any) -> str:
         self.arrays[name] = np.asarray(values)

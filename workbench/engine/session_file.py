@@ -22,6 +22,7 @@ import numpy as np
 from workbench.core.arrays import Floats, frozen
 from workbench.core.errors import WorkbenchError
 from workbench.io.atomic import replacing, utf8
+from workbench.io.file_names import relative_name, renamed
 from workbench.io.opening import SAMPLE
 from workbench.io.png_content import content_of, is_png, with_content
 from workbench.io.read import read_bytes
@@ -92,7 +93,7 @@ def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool
     if is_bare:
         legs = tuple(replace(leg, positions=None) for leg in record.legs)
         record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
-    plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: _relative(name, folder))))
+    plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: relative_name(name, folder))))
     text = utf8(readable(plain) + "\n")
     if is_bare:
         stream.write(text)
@@ -205,19 +206,8 @@ def _array_in(name: str, data: bytes) -> Floats:
 
 def _with_paths(session: Session, change: Callable[[str], str]) -> Session:
     """The session with the names of its files changed; samples stay."""
-    changes: dict[str, Any] = {field: _changed(getattr(session, field), change) for field in PATH_FIELDS}
+    changes: dict[str, Any] = {field: renamed(getattr(session, field), change) for field in PATH_FIELDS}
     return replace(session, **changes)
-
-
-def _changed(name: str, change: Callable[[str], str]) -> str:
-    return change(name) if name and not name.startswith(SAMPLE) else name
-
-
-def _relative(name: str, folder: Path) -> str:
-    try:
-        return Path(os.path.relpath(os.path.realpath(name), folder)).as_posix()
-    except ValueError:  # on another drive
-        return str(Path(name).absolute())
 
 
 def source_digest(source: str) -> str:

@@ -25,7 +25,7 @@ from workbench.figures.recipe import (
 )
 from workbench.figures.texture_text import TEXTURE, texture_of
 from workbench.io.atomic import write_text
-from workbench.io.opening import SAMPLE
+from workbench.io.file_names import relative_name, renamed
 from workbench.io.read import read_bytes
 from workbench.session import schema
 from workbench.session.session import Session
@@ -66,36 +66,26 @@ def read_recipe(path: str | os.PathLike[str]) -> Recipe:
 def write_recipe(path: str | os.PathLike[str], recipe: Recipe) -> None:
     """Write a recipe, whole or not at all; its files are named relative to its folder."""
     folder = Path(os.path.realpath(path)).parent
-    write_text(path, readable(plain_of(with_paths(recipe, lambda name: _relative(name, folder)))) + "\n")
+    write_text(path, readable(plain_of(with_paths(recipe, lambda name: relative_name(name, folder)))) + "\n")
 
 
 def with_paths(recipe: Recipe, change: Callable[[str], str]) -> Recipe:
     """The recipe with the names of its files changed; samples stay."""
 
-    def changed(name: str) -> str:
-        return change(name) if name and not name.startswith(SAMPLE) else name
-
     def moved(choice: MapChoice) -> MapChoice:
-        places: dict[str, Any] = {field: changed(getattr(choice.session, field)) for field in FILES}
-        own = {field: changed(getattr(choice, field)) for field in OWN_FILES}
+        places: dict[str, Any] = {field: renamed(getattr(choice.session, field), change) for field in FILES}
+        own = {field: renamed(getattr(choice, field), change) for field in OWN_FILES}
         return replace(choice, session=replace(choice.session, **places), **own)
 
     def laid(panel: Panel) -> Panel:
         texture = panel.texture
-        return replace(panel, texture=texture and replace(texture, picture=changed(texture.picture)))
+        return replace(panel, texture=texture and replace(texture, picture=renamed(texture.picture, change)))
 
     return replace(
         recipe,
         maps=tuple(moved(choice) for choice in recipe.maps),
         panels=tuple(laid(panel) for panel in recipe.panels),
     )
-
-
-def _relative(name: str, folder: Path) -> str:
-    try:
-        return Path(os.path.relpath(os.path.realpath(name), folder)).as_posix()
-    except ValueError:  # on another drive
-        return str(Path(name).absolute())
 
 
 def plain_of(recipe: Recipe) -> dict[str, Any]:

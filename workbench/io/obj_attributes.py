@@ -11,6 +11,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats, Integers
 from workbench.core.mesh import FaceAttributes
+from workbench.io.file_names import relative_name
 
 KEYWORDS = ("o", "g", "usemtl", "s")
 """What stands before faces and holds until it is said anew, in the order of `FaceAttributes.parts`."""
@@ -76,10 +77,7 @@ def _from(folder: str, name: str, place: Path) -> str:
     there, here = os.path.join(folder, name), os.path.abspath(place.parent)
     if os.path.realpath(here) == os.path.realpath(folder) or os.path.isabs(name) or not os.path.isfile(there):
         return name
-    try:
-        return Path(os.path.relpath(os.path.realpath(there), os.path.realpath(here))).as_posix()
-    except ValueError:  # on another drive
-        return Path(there).as_posix()
+    return relative_name(there, here)
 
 
 def naming_lines(before: Iterable[str], now: Iterable[str]) -> str:

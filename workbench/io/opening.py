@@ -16,6 +16,7 @@ from workbench.core.kinds import check_for_kind, resolve_kind, source_for_kind
 from workbench.core.load_report import report_lines
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
+from workbench.io.file_names import SAMPLE
 from workbench.io.mesh_file import MeshFile
 from workbench.io.read import read_mesh
 from workbench.io.reading_fixes import split_fixes
@@ -23,8 +24,6 @@ from workbench.io.start_file import fit_dimension, leads_into_space, map_from_fi
 
 __all__ = ["SAMPLE", "OpenedSource", "UnsuitableSourceError", "map_from_file", "open_source", "read_source"]
 
-SAMPLE = "sample:"
-"""What the name of a sample begins with."""
 TETRAHEDRA_IN_DISGUISE = "Its faces have four corners each and seem to be tetrahedra; read them as such, apply --fix tets."
 
 
