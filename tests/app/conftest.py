@@ -95,6 +95,7 @@ def new_window(settings: Path, make_worker: WorkerMaker, theme: str) -> MainWind
     window = MainWindow(ThemeSwitch(application, theme), Settings(settings), make_worker)
     window.resize(1200, 800)
     window.show()
+    window.late.finish()  # some of it would be taken for what a test has left behind
     window.activateWindow()  # keys go to the active window only
     QTest.qWaitForWindowActive(window)
     return window
@@ -129,7 +130,6 @@ def make_window(tmp_path: Path) -> Iterator[WindowMaker]:
 def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:
     """One window for the tests of a module: making one takes a second without a graphics card."""
     window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
-    window.late.finish()  # some of it would be taken for what a test has left behind
     window.bridge.start()
     while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
         QTest.qWait(20)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,7 +38,7 @@ class SaveRequest:
 
 
 class Saver(QObject):
-    """Reads the source again for what the window does not hold (the file's own faces), then writes."""
+    """Reads the source again for what the window does not hold (the file's own faces), then writes; one file at a time."""
 
     saved = Signal(str)
     failed = Signal(str)
@@ -45,26 +46,37 @@ class Saver(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._works = Backgrounds(self)
-
-    @property
-    def is_busy(self) -> bool:
-        return len(self._works) > 0
+        self._waiting: list[SaveRequest] = []
 
     def save(self, request: SaveRequest) -> None:
-        if self.is_busy:
-            self.failed.emit("The file before is still being written; save again in a moment.")
+        """Write it when what was asked for before is written."""
+        self._waiting.append(request)
+        self._go_on()
+
+    def wait(self) -> None:
+        """Write all that was asked for, before the window ends."""
+        self._works.wait()
+        for request in self._waiting:
+            with suppress(WorkbenchError, OSError):  # nobody is there any more to be told
+                write(request)
+        self._waiting.clear()
+
+    def _go_on(self) -> None:
+        if self._works or not self._waiting:
             return
+        request = self._waiting.pop(0)
         path = str(request.path)
+
+        def done(_: None) -> None:
+            self.saved.emit(path)
+            self._go_on()
 
         def fail(error: Exception) -> None:
             is_expected = isinstance(error, WorkbenchError)
             self.failed.emit(error.sentence if is_expected else f"The map could not be written to {path}: {error}.")
+            self._go_on()
 
-        self._works.start(lambda: write(request), lambda _: self.saved.emit(path), fail)
-
-    def wait(self) -> None:
-        """Let the thread end before the window does."""
-        self._works.wait()
+        self._works.start(lambda: write(request), done, fail)
 
 
 def write(request: SaveRequest) -> None:
