@@ -105,3 +105,12 @@ def test_values_that_are_all_alike_have_bins_too() -> None:
     item = Signature("flat", np.ones(5), np.full(5, 0.2))
     edges = common_edges([item])
     assert (np.diff(edges) > 0).all() and densities(item, edges) @ np.diff(edges) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("value", [1.0, 0.3, 7e-5, 2e9])
+@pytest.mark.parametrize("logarithmic", [False, True])
+def test_values_that_differ_by_rounding_lie_in_one_bin(value: float, logarithmic: bool) -> None:
+    noise = 1.0 + np.random.default_rng(1).uniform(-1e-12, 1e-12, 200)
+    item = Signature("rest", value * noise, np.full(200, 1 / 200))
+    edges = common_edges([item], logarithmic=logarithmic)
+    assert np.count_nonzero(masses(item, edges)) == 1

@@ -32,6 +32,7 @@ from workbench.figures.recipe import (
 )
 from workbench.figures.recipe_text import read_recipe, write_recipe
 from workbench.figures.save import save_figure
+from workbench.figures.text_fit import LEAST_TEXT, fit_lines, text_width
 from workbench.session.session import Session
 
 PLANE = Session(source="sample:bar", solver="projected-newton", iterations=3)
@@ -186,10 +187,10 @@ def test_a_histogram_of_nothing_is_refused(maps):
 
 def test_parts_of_a_page_do_not_overlap():
     cells = [
-        Cell(aspect=0.5, has_caption=True, has_bar=True),
+        Cell(aspect=0.5, caption=2, words=2, has_bar=True),
         Cell(aspect=2.0),
         Cell(has_axes=True),
-        Cell(span=2, has_axes=True, has_caption=True),
+        Cell(span=2, has_axes=True, caption=1),
         Cell(span=3, is_bar=True),
     ]
     page = lay_out(cells, 150.0, 3, 8.0, has_title=True)
@@ -419,3 +420,28 @@ def test_a_picture_seen_from_afar_has_the_colours_of_its_mean(maps, tmp_path):
     pixels, _ = picture_in(axes)
     inner = pixels[pixels[..., 3] == 1.0][:, :3]
     assert np.abs(inner - 0.5).max() < 0.05
+
+
+@pytest.mark.parametrize("width", [12.0, 20.0, 33.0, 60.0])
+@pytest.mark.parametrize("text", ["Symmetric Dirichlet (32)", "Projected Newton, 20", "one", "a b " * 40, "x" * 90])
+def test_words_fit_and_break_before_they_are_cut(width, text):
+    words, size = fit_lines(text, width, 8.0)
+    lines = words.split("\n")
+    assert len(lines) <= 2
+    assert all(text_width(line, size) <= width * (1 + 1e-6) for line in lines)
+    assert LEAST_TEXT * 8.0 - 1e-9 <= size <= 8.0
+    if "…" not in words:
+        assert " ".join(lines).split() == text.split()
+    fits_at_all = text_width(text, LEAST_TEXT * 8.0) <= width
+    assert not (fits_at_all and "…" in words), "nothing is cut that would fit"
+
+
+def test_captions_of_a_row_have_one_size(maps):
+    found = figure_of(
+        maps,
+        *(Panel(maps=("pulled",), caption=words) for words in ("SLIM, 5", "Projected Newton, 20", "L-BFGS")),
+        width=50.0,
+    ).figure
+    shown = [text for text in found.texts if text.get_text()]
+    assert {text.get_text().replace("\n", " ") for text in shown} == {"SLIM, 5", "Projected Newton, 20", "L-BFGS"}
+    assert len({round(text.get_fontsize(), 6) for text in shown}) == 1

@@ -84,8 +84,8 @@ def common_edges(signatures: Sequence[Signature], count: int = BINS, *, logarith
     low, high = min(end[0] for end in ends), max(end[1] for end in ends)
     if logarithmic:
         low = max(low, 1e-12 * max(high, 1e-300))
-    if high - low <= 1e-9 * max(abs(high), 1e-300):
-        low, high = 0.5 * low, max(1.5 * high, 1e-12)
+    if high - low <= 1e-9 * max(abs(high), 1e-300):  # values that differ by rounding lie in the middle of one bin
+        low, high = 0.5 * low, max((1.5 + 1.0 / count) * high, 1e-12)
     return bin_edges(low, high, count, logarithmic=logarithmic)
 
 

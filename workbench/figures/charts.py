@@ -12,7 +12,7 @@ from workbench.core.signature import Signature, densities
 from workbench.figures.colour_scale import LOGARITHMIC
 from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS, without_mathematics
 from workbench.figures.recipe import QUANTITIES
-from workbench.figures.text_fit import fit_text, text_width
+from workbench.figures.text_fit import fit_lines, fit_text, text_width
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 TICKS = 5
 """Numbers beside a colour bar, at the most."""
 FIELDS = {"energy": "energy", "gradient-norm": "gradient_norm", "inverted": "inverted"}
+LABEL = 0.95
+"""Size of words beside axes, in that of the text."""
 BEYOND_BAR = 1.14
 """Width of the words below, as a part of that of a colour bar."""
 MOST_MARKED = 30
 """Steps of a curve up to which each has its mark."""
 
 
-def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) -> None:
+def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float, most_lines: int = 1) -> None:
     """A horizontal colour bar with its words below; an arrow at the end beyond which there are values."""
     from matplotlib.colors import LogNorm
 
@@ -46,7 +48,7 @@ def draw_bar(axes: Axes, paint: ScalarMappable, label: str, font_size: float) ->
     bar.minorticks_off()
     bar.outline.set_linewidth(0.4)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.15 * font_size)
-    words, size = fit_text(label, BEYOND_BAR * _width(axes), 0.95 * font_size)
+    words, size = fit_lines(label, BEYOND_BAR * _width(axes), LABEL * font_size, most_lines)
     axes.set_xlabel(words, fontsize=size, labelpad=0.2 * font_size, parse_math=False)
 
 
@@ -146,12 +148,12 @@ def _legend(axes: Axes, font_size: float) -> None:
 
 def _label_below(axes: Axes, words: str, font_size: float, room: float) -> None:
     """Words in `room` mm that end where the axes do, if they do not fit below the axes themselves."""
-    size = 0.95 * font_size
     own = _width(axes)
-    words, fitted = fit_text(words, max(room, own), size)
+    words, fitted = fit_lines(words, max(room, own), LABEL * font_size)
     label = axes.set_xlabel(words, fontsize=fitted, labelpad=0.2 * font_size, parse_math=False)
-    if text_width(words, fitted) > own:
-        label.set_x(1 - 0.5 * text_width(words, fitted) / own)
+    widest = max(text_width(line, fitted) for line in words.split("\n"))
+    if widest > own:
+        label.set_x(1 - 0.5 * widest / own)
 
 
 def _width(axes: Axes) -> float:
@@ -167,7 +169,7 @@ def _page_of(axes: Axes) -> Figure:
 def _words(axes: Axes, below: str, left: str, font_size: float, room: float) -> None:
     _label_below(axes, below, font_size, room)
     height = axes.get_position().height * _page_of(axes).get_figheight() * 25.4
-    left, size = fit_text(left, height, 0.95 * font_size)
+    left, size = fit_text(left, height, LABEL * font_size)
     axes.set_ylabel(left, fontsize=size, labelpad=0.3 * font_size, parse_math=False)
     axes.tick_params(labelsize=0.85 * font_size, length=0.3 * font_size, width=0.4, pad=0.2 * font_size)
     axes.spines[["top", "right"]].set_visible(False)

@@ -14,14 +14,26 @@ from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Measure
 from workbench.core.signature import Signature, common_edges, densities
-from workbench.figures.charts import draw_bar, draw_curves, draw_histograms
+from workbench.figures.charts import BEYOND_BAR, LABEL, draw_bar, draw_curves, draw_histograms
 from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale, in_the_way_of
 from workbench.figures.figure_maps import FigureMap
 from workbench.figures.mesh_panel import MOST_VECTORS, Scene, draw_scene, frame_in, scene_of
 from workbench.figures.mesh_pictures import frame_round
-from workbench.figures.page_layout import MM_OF_POINT, Box, Cell, PageLayout, Place, lay_out
+from workbench.figures.page_layout import (
+    LINE,
+    MM_OF_POINT,
+    Box,
+    Cell,
+    PageLayout,
+    Place,
+    bar_length,
+    chart_reach,
+    lay_out,
+    panel_width,
+    rows_of,
+)
 from workbench.figures.recipe import Panel, Recipe
-from workbench.figures.text_fit import fit_text
+from workbench.figures.text_fit import fit_lines
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,6 +46,8 @@ CENTRED = ("average-singular-value", *DESCRIPTORS)
 """Measures that are factors: 1 stands for no distortion."""
 USUAL_TEXT = 8.0
 """Font size at which lines have their usual width, points."""
+LETTER = 1.4
+"""Room for a letter beside a caption, in font sizes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,6 +183,32 @@ class _Composer:
         title = self.maps[panel.maps[0]].title
         return title if panel.kind == "map" else f"source, {title}"
 
+    @cached_property
+    def captions(self) -> dict[int, tuple[str, float]]:
+        """Words above panels and their size in points, which is one for each row."""
+        page, panels = self.recipe.page, self.recipe.panels
+        found: dict[int, tuple[str, float]] = {}
+        for row in rows_of([panel.span for panel in panels], page.columns):
+            fitted = {index: self._fitted_caption(panels[index]) for index in row if self._caption(panels[index]).strip()}
+            size = min((size for _, size in fitted.values()), default=page.font_size)
+            found |= {index: (words, size) for index, (words, _) in fitted.items()}
+        return found
+
+    def _fitted_caption(self, panel: Panel) -> tuple[str, float]:
+        page = self.recipe.page
+        taken = LETTER * page.font_size * MM_OF_POINT if page.letters else 0.0
+        return fit_lines(self._caption(panel), panel_width(page.width, page.columns, panel.span) - 2 * taken, page.font_size)
+
+    def _words(self, panel: Panel) -> int:
+        """Lines of the words below a colour bar or a chart."""
+        page = self.recipe.page
+        width = panel_width(page.width, page.columns, panel.span)
+        is_bar = panel.kind == "colour-bar" or (panel.bar and panel.is_picture)
+        if not (is_bar or panel.kind == "histogram") or not panel.has_measure:
+            return 1
+        room = BEYOND_BAR * bar_length(width) if is_bar else chart_reach(width, page.font_size)
+        return _lines(fit_lines(title_of(measure_of(panel)), room, LABEL * page.font_size)[0])
+
     def _layout(self) -> PageLayout:
         page = self.recipe.page
         cells = []
@@ -179,7 +219,8 @@ class _Composer:
                 Cell(
                     span=panel.span,
                     aspect=half[1] / half[0] if half else 0.0,
-                    has_caption=bool(self._caption(panel)) or (page.letters and (panel.is_picture or is_chart)),
+                    caption=self._caption_lines(index, is_chart=is_chart),
+                    words=self._words(panel),
                     has_bar=panel.bar and panel.is_picture and panel.has_measure,
                     has_axes=is_chart,
                     is_bar=panel.kind == "colour-bar",
@@ -187,14 +228,20 @@ class _Composer:
             )
         return lay_out(cells, page.width, page.columns, page.font_size, bool(page.title))
 
+    def _caption_lines(self, index: int, *, is_chart: bool) -> int:
+        panel = self.recipe.panels[index]
+        has_any = bool(self._caption(panel)) or (self.recipe.page.letters and (panel.is_picture or is_chart))
+        return _lines(self.captions[index][0]) if index in self.captions else int(has_any)
+
     def _draw_all(self, figure: Figure, layout: PageLayout) -> None:
-        letters = iter("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
+        page, letters = self.recipe.page, iter("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ")
         left = self.most_vectors
         for index, (panel, place) in enumerate(zip(self.recipe.panels, layout.places, strict=True)):
             if panel.kind == "empty":
                 continue
-            lettered = self.recipe.page.letters and panel.kind != "colour-bar"
-            self._write_caption(figure, layout, place, next(letters, "") if lettered else "", self._caption(panel))
+            lettered = page.letters and panel.kind != "colour-bar"
+            letter = next(letters, "") if lettered else ""
+            self._write_caption(figure, layout, place, letter, *self.captions.get(index, ("", page.font_size)))
             if panel.is_picture:
                 left -= self._draw_picture(self._axes(figure, layout, place.inside), index, place, left)
             elif panel.kind == "histogram":
@@ -203,7 +250,8 @@ class _Composer:
                 self._draw_curves(self._axes(figure, layout, place.inside), panel, place.reach)
             if place.bar is not None:
                 paint = self.paints[self._scale_name(index)]
-                draw_bar(self._axes(figure, layout, place.bar), paint, title_of(measure_of(panel)), self.recipe.page.font_size)
+                bar = self._axes(figure, layout, place.bar)
+                draw_bar(bar, paint, title_of(measure_of(panel)), page.font_size, most_lines=2)
 
     @staticmethod
     def _axes(figure: Figure, layout: PageLayout, box: Box) -> Axes:
@@ -214,15 +262,17 @@ class _Composer:
         axes.patch.set_alpha(0.0)
         return axes
 
-    def _write_caption(self, figure: Figure, layout: PageLayout, place: Place, letter: str, caption: str) -> None:
+    def _write_caption(
+        self, figure: Figure, layout: PageLayout, place: Place, letter: str, words: str, fitted: float
+    ) -> None:
         size = self.recipe.page.font_size
-        y = 1 - (place.whole.top + 0.55 * size * MM_OF_POINT) / layout.height
+        heading = place.inside.top - place.whole.top - 0.25 * LINE * size * MM_OF_POINT
+        y = 1 - (place.whole.top + 0.5 * heading) / layout.height
         if letter:
             figure.text(place.whole.left / layout.width, y, letter, weight="bold", va="center", fontsize=1.1 * size)
-        taken = 1.4 * size * MM_OF_POINT if letter else 0.0
-        words, fitted = fit_text(caption, place.whole.width - 2 * taken, size)
         middle = (place.whole.left + 0.5 * place.whole.width) / layout.width
-        figure.text(middle, y, words, ha="center", va="center", fontsize=fitted, parse_math=False)
+        if words:
+            figure.text(middle, y, words, ha="center", va="center", fontsize=fitted, parse_math=False)
 
     def _draw_picture(self, axes: Axes, index: int, place: Place, most: int) -> int:
         """The number of triangles that were drawn as vectors."""
@@ -271,3 +321,7 @@ class _Composer:
         if bare is not None:
             raise WorkbenchError(f"The map {bare} comes from a file, which has no curves; name maps that are solved for.")
         draw_curves(axes, items, panel.quantity, self.recipe.page.font_size, room)
+
+
+def _lines(words: str) -> int:
+    return 1 + words.count("\n")
