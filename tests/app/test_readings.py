@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import QPoint, QRectF, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QImage, QPainter
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand
 from workbench.app.main_window import MainWindow
+from workbench.app.theme import LIGHT
+from workbench.app.views import scale_bar
 from workbench.app.views.mesh_view import MeshView
-from workbench.core.round_length import round_length
 from workbench.core.quality import simplex_table
+from workbench.core.round_length import round_length
 
 
 def point_at(window: MainWindow, view: MeshView, simplex: int, qtbot: QtBot) -> None:
@@ -95,3 +97,18 @@ def test_a_scale_bar_is_as_long_as_it_says(window: MainWindow) -> None:
     assert np.ptp(window.document.mesh.vertices[[0, 20], 0]) == pytest.approx(2.0)
     pixels = np.linalg.norm(np.subtract(*view.project(np.array([here, there]))))
     assert pixels == pytest.approx(2.0 * view.pixels_per_unit, rel=1e-6)
+
+
+@pytest.mark.parametrize("pixels_per_unit", [0.013, 37.0, 4.1e5])
+def test_a_scale_bar_is_drawn_as_long_as_it_says(pixels_per_unit: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    said: list[float] = []
+    monkeypatch.setattr(scale_bar, "round_length", lambda longest: said.append(round_length(longest)) or said[-1])
+    image = QImage(300, 200, QImage.Format.Format_RGB32)
+    image.fill(LIGHT.view)
+    painter = QPainter(image)
+    scale_bar.paint_scale_bar(painter, pixels_per_unit, QRectF(0, 0, 300, 200), LIGHT)
+    painter.end()
+    row = round(200 - scale_bar.MARGIN)
+    is_dark = [QColor(image.pixel(x, row)).lightness() < 100 for x in range(300)]
+    assert sum(is_dark) == pytest.approx(said[0] * pixels_per_unit, abs=3.0)
+    assert is_dark.index(True) + sum(is_dark) == pytest.approx(300 - scale_bar.MARGIN, abs=3.0)

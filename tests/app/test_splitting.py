@@ -140,6 +140,10 @@ def test_the_last_view_stays(window: MainWindow) -> None:
 
 
 def test_cameras_of_one_kind_go_together_and_never_with_another(window: MainWindow, qtbot: QtBot) -> None:
+    source = window.source.view.camera
+    turn_wheel(window.target.view, middle(window.target.view), 1)
+    qtbot.wait(120)
+    assert window.source.view.camera is source, "a figure does not follow its map"
     window.open("bumpy")
     qtbot.waitUntil(lambda: window.document.kind == "parameterize" and window.target.view.geometry_shown is not None)
     of_map, of_source = window.splitting.split("target", "below"), window.splitting.split("source", "below")
