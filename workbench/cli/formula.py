@@ -47,7 +47,8 @@ def run_save(options: argparse.Namespace) -> int:
     ranges = dict(options.ranges)
     foreign = ranges.keys() - item.parameter_values.keys()
     if foreign:
-        raise WorkbenchError(f"The formula has no parameter {min(foreign)!r} for --range.")
+        known = ", ".join(item.parameter_values) or "none; name it in the formula and give it a value with --set"
+        raise WorkbenchError(f"The formula has no parameter {min(foreign)!r} for --range; there are: {known}.")
     parameters = tuple(_as_saved(p, item.parameter_values[p.name], ranges.get(p.name)) for p in item.parameters)
     formula = NamedFormula(options.name, item.formula, parameters, options.note)
     try:
@@ -66,7 +67,7 @@ def _as_saved(parameter: Parameter, value: float, span: str | None) -> Parameter
     try:
         return replace(parameter, default=parameter.type(value), minimum=float(low), maximum=float(high))
     except ValueError:
-        raise WorkbenchError(f"--range {parameter.name}={span} is not of the form NAME=LOW:HIGH.") from None
+        raise WorkbenchError(f"--range {parameter.name}={span} is not of the form NAME=LOW:HIGH, two numbers.") from None
 
 
 def run_rename(options: argparse.Namespace) -> int:

@@ -187,7 +187,7 @@ def _check_scales(panels: tuple[Panel, ...]) -> None:
     drawn = {panel.scale for panel in panels if panel.is_picture and panel.has_measure}
     bare = next((panel.scale for panel in panels if panel.kind == "colour-bar" and panel.scale not in drawn), None)
     if bare is not None:
-        raise WorkbenchError(f"No map has the scale {bare!r} that a colour bar belongs to.")
+        raise WorkbenchError(f"No map has the scale {bare!r} that a colour bar belongs to; name the scale of a map.")
 
 
 # ---------------------------------------------------------------------------------------------- values

@@ -76,7 +76,7 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
         raise MeshError(f"{path}: it cannot be read as {name}; {reason}.")
     points, blocks, regions, source = content
     if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
-        raise MeshError(f"{path}: there are no vertices in it.")
+        raise MeshError(f"{path}: there are no vertices in it; is it cut short?")
     blocks, inner = linear_blocks(blocks) if linearise else (blocks, np.empty(0, dtype=np.int64))
     has_map = source is not None and not len(inner)
     mesh, notes = _mesh_of_blocks(path, source if has_map else points, blocks)
@@ -136,7 +136,7 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
         )
     if "tetra" not in kinds and not kinds & set(FLAT_CELLS):
         found = ", ".join(sorted(kinds)) or "none"
-        raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}).")
+        raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}); save the mesh with them.")
     solid = sorted(kinds - known)
     if solid:
         raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")

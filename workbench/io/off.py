@@ -24,7 +24,7 @@ def read_off(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
             rows.append(words)
             numbers.append(number)
     if not rows or not rows[0][0].upper().endswith("OFF"):
-        raise MeshError(f"{path}: it does not begin with OFF, so it is not an OFF file.")
+        raise MeshError(f"{path}: it does not begin with OFF, so it is not an OFF file; is the ending right?")
     counts = rows[0][1:] or (rows[1] if len(rows) > 1 else [])
     at = 1 if rows[0][1:] else 2
     try:

@@ -85,7 +85,7 @@ def _bare_positions(path: Path) -> Floats | None:
         return None
     name = next((name for name in ("X", "X0", "fV", "V") if name in arrays), "")
     if not name:
-        raise MeshError(f"{path}: no positions were found in it (arrays X, X0, fV or V).")
+        raise MeshError(f"{path}: no positions were found in it (arrays X, X0, fV or V); name a file that holds a map.")
     positions = finite_rows(path, name, arrays[name], None, (2, 3))
     check_range(path, positions)
     return positions

@@ -30,7 +30,7 @@ def read_stl(path: Path, data: bytes) -> tuple[Mesh, tuple[str, ...]]:
     else:
         raise MeshError(f"{path}: it cannot be read as STL; it is damaged, cut short, or of another format.")
     if not len(points):
-        raise MeshError(f"{path}: there are no triangles in it.")
+        raise MeshError(f"{path}: there are no triangles in it; save the mesh again.")
     # The sum turns -0 into 0, so that equal places are equal bytes.
     _, first, number = np.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)
     order = np.argsort(first)

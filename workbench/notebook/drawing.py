@@ -120,7 +120,7 @@ def _maps_at_hand(what: Any) -> list[FigureMap]:
     else:
         named = [("", what)]
     if not named:
-        raise WorkbenchError("There is no map to draw.")
+        raise WorkbenchError("There is no map to draw; give one at least, as `solve` and `load` make them.")
     return [_figure_map(str(name), item) for name, item in named]
 
 

@@ -34,5 +34,5 @@ def png_of(image: QImage) -> bytes:
     buffer = QBuffer()
     buffer.open(QIODevice.OpenModeFlag.WriteOnly)
     if not image.save(buffer, "PNG"):
-        raise WorkbenchError("There is nothing to make a picture of.")
+        raise WorkbenchError("There is nothing to make a picture of; open a mesh, and a view of it, first.")
     return bytes(buffer.data().data())
