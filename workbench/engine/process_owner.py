@@ -15,6 +15,7 @@ from workbench.engine.command_box import CommandBox
 from workbench.engine.command_sender import CommandSender
 from workbench.engine.head_start import begin_child_process
 from workbench.engine.messages import Command, Failure, Quit, Report
+from workbench.engine.shared_positions import PositionRing
 
 QUIT_PATIENCE = 0.5
 """Seconds that a child has to leave by itself when its owner is closed."""
@@ -140,4 +141,16 @@ class ProcessOwner(ABC):
         process.join(timeout=5.0)
         process.close()
         if self._connection is not None:
+            _free_unread(self._connection)
             self._connection.close()
+
+
+def _free_unread(connection: Connection) -> None:
+    """Give back the memory for maps that a child that has ended told of last, and nobody has opened."""
+    with contextlib.suppress(EOFError, OSError):
+        while connection.poll():
+            message = connection.recv()
+            if isinstance(message, tuple):  # as all that tell of memory, it ends with name and shape
+                ring = PositionRing(message[-1], message[-2])
+                ring.unlink()
+                ring.close()
