@@ -136,7 +136,7 @@ def _refuse_unknown(path: Path, kinds: set[str]) -> None:
         )
     if "tetra" not in kinds and not kinds & set(FLAT_CELLS):
         found = ", ".join(sorted(kinds)) or "none"
-        raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}); save the mesh with them.")
+        raise MeshError(f"{path}: there are no triangles or tetrahedra in it (elements found: {found}); save them, too.")
     solid = sorted(kinds - known)
     if solid:
         raise MeshError(f"{path}: it holds {', '.join(solid)}, and only triangles and tetrahedra are read; split them.")
