@@ -72,8 +72,9 @@ class Energy:
         return next((pattern.order for pattern in self._shared.values()), None)
 
     def with_distortion(self, distortion: Distortion, allow_inversions: bool) -> Energy:
-        """The same source with another density: elements and pattern are shared."""
-        return replace(self, distortion=distortion, allow_inversions=allow_inversions)
+        """The same source with another density: elements and pattern are shared, what one looked at is not another's."""
+        kept = self.kept if distortion.looks_at_start else EVERY
+        return replace(self, distortion=distortion, allow_inversions=allow_inversions, kept=kept)
 
     def from_start(self, positions: Floats) -> Energy:
         """For a distortion that looks at the start (N, d): the barrier of what is inverted there is removed."""
