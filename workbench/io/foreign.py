@@ -67,13 +67,12 @@ def read_foreign(path: Path, data: bytes, *, linearise: bool = False) -> tuple[M
             plain = Path(folder) / path.name
             plain.write_bytes(ENTITIES.sub(b"", data, count=1))
             content = _read(path, str(plain), module, len(data))
-    if content is None and path.suffix.lower() in OWN:
+    reason = next((words for mark, words in NOT_READ.items() if mark in data), "")
+    if content is None and not reason and path.suffix.lower() in OWN:
         with contextlib.suppress(ValueError, OverflowError, LookupError, MemoryError), np.errstate(all="ignore"):
             content = (*OWN[path.suffix.lower()](data), 0, None)
     if content is None:
-        reasons = (words for mark, words in NOT_READ.items() if mark in data)
-        reason = next(reasons, "it is damaged, cut short, or of another format")
-        raise MeshError(f"{path}: it cannot be read as {name}; {reason}.")
+        raise MeshError(f"{path}: it cannot be read as {name}; {reason or 'it is damaged, cut short, or of another format'}.")
     points, blocks, regions, source = content
     if points.ndim != 2 or not len(points) or points.dtype.kind not in "fiu":
         raise MeshError(f"{path}: there are no vertices in it; is it cut short?")
