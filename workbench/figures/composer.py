@@ -30,7 +30,6 @@ from workbench.figures.page_layout import (
     chart_reach,
     lay_out,
     panel_width,
-    rows_of,
 )
 from workbench.figures.recipe import Panel, Recipe
 from workbench.figures.text_fit import fit_lines
@@ -185,14 +184,12 @@ class _Composer:
 
     @cached_property
     def captions(self) -> dict[int, tuple[str, float]]:
-        """Words above panels and their size in points, which is one for each row."""
-        page, panels = self.recipe.page, self.recipe.panels
-        found: dict[int, tuple[str, float]] = {}
-        for row in rows_of([panel.span for panel in panels], page.columns):
-            fitted = {index: self._fitted_caption(panels[index]) for index in row if self._caption(panels[index]).strip()}
-            size = min((size for _, size in fitted.values()), default=page.font_size)
-            found |= {index: (words, size) for index, (words, _) in fitted.items()}
-        return found
+        """Words above panels and their size in points, which is one for the page, but for what would be cut short else."""
+        page = self.recipe.page
+        panels = enumerate(self.recipe.panels)
+        fitted = {index: self._fitted_caption(panel) for index, panel in panels if self._caption(panel).strip()}
+        size = min((size for words, size in fitted.values() if not words.endswith("…")), default=page.font_size)
+        return {index: (words, min(size, own)) for index, (words, own) in fitted.items()}
 
     def _fitted_caption(self, panel: Panel) -> tuple[str, float]:
         page = self.recipe.page
@@ -251,7 +248,7 @@ class _Composer:
             if place.bar is not None:
                 paint = self.paints[self._scale_name(index)]
                 bar = self._axes(figure, layout, place.bar)
-                draw_bar(bar, paint, title_of(measure_of(panel)), page.font_size, most_lines=2)
+                draw_bar(bar, paint, title_of(measure_of(panel)), page.font_size, most_lines=3)
 
     @staticmethod
     def _axes(figure: Figure, layout: PageLayout, box: Box) -> Axes:

@@ -1,15 +1,16 @@
-"""Words that fit into their place: on two lines, smaller ones, then fewer of them."""
+"""Words that fit into their place: on several lines, smaller ones, then fewer of them."""
 
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import combinations, pairwise
 
 from workbench.figures.page_layout import MM_OF_POINT
 
-LINE_HEIGHT = 1.2
-"""From line to line, in font sizes: that of the text in figures."""
 UNBROKEN = 0.9
 """Part of the font size down to which words shrink before they stand on another line."""
+MOST_BROKEN = 16
+"""Words among which lines are broken."""
 LEAST_TEXT = 0.7
 """Part of the font size down to which words shrink before they are cut short."""
 
@@ -35,20 +36,33 @@ def fit_text(text: str, width: float, font_size: float) -> tuple[str, float]:
     return _cut(text, width, size), size
 
 
-def fit_lines(text: str, width: float, font_size: float, most: int = 2) -> tuple[str, float]:
-    """Words on up to `most` lines, one or two, and the size in points, that fit into `width` mm."""
+def fit_lines(text: str, width: float, font_size: float, most: int = 3) -> tuple[str, float]:
+    """Words on up to `most` lines, and the size in points, that fit into `width` mm: as few lines as keep them large."""
+    best: tuple[str, ...] = (text,)
+    size = 0.0
+    for count in range(1, min(most, len(text.split())) + 1):
+        lines, widest = _broken(text, count, font_size)
+        fitted = font_size * min(1.0, width / max(widest, 1e-9))
+        if fitted > size:
+            best, size = lines, fitted
+        if size >= UNBROKEN * font_size:
+            break
+    size = max(size, LEAST_TEXT * font_size)
+    return "\n".join(_cut(line, width, size) for line in best), size
+
+
+def _broken(text: str, count: int, font_size: float) -> tuple[tuple[str, ...], float]:
+    """Words on so many lines, the widest of which, in mm, is as short as can be."""
+    if count == 1:
+        return (text,), text_width(text, font_size)
     words = text.split()
-    if most == 1 or len(words) < 2 or text_width(text, UNBROKEN * font_size) <= width:
-        return fit_text(text, width, font_size)
-    pairs = [(" ".join(words[:count]), " ".join(words[count:])) for count in range(1, len(words))]
-    least = LEAST_TEXT * font_size
-    shown = min(pairs, key=lambda pair: max(text_width(line, font_size) for line in pair))
-    widest = max(text_width(line, font_size) for line in shown)
-    size = max(font_size * min(1.0, width / widest), least)
-    if size * widest > font_size * width * (1 + 1e-9):  # the second line is cut short: as much as can be is on the first
-        fitting = (pair for pair in pairs if text_width(pair[0], least) <= width)
-        shown = max(fitting, key=lambda pair: len(pair[0]), default=shown)
-    return "\n".join(_cut(line, width, size) for line in shown), size
+    found = []
+    for breaks in combinations(range(1, min(len(words), MOST_BROKEN)), count - 1):
+        ends = (0, *breaks, len(words))
+        lines = tuple(" ".join(words[begin:end]) for begin, end in pairwise(ends))
+        found.append((max(text_width(line, font_size) for line in lines), lines))
+    widest, shown = min(found)
+    return shown, widest
 
 
 def _cut(text: str, width: float, size: float) -> str:
