@@ -94,3 +94,12 @@ def test_vertices_are_those_of_the_mesh_file_whatever_fixes_made_of_it() -> None
         vertices_after_fixes("a.csv", np.array([5]), mesh)
     with pytest.raises(WorkbenchError, match="Vertex 3 lies on a cut"):
         vertices_before_fixes(np.array([3]), mesh)
+
+
+def test_tables_of_decimals_are_read(tmp_path: Path) -> None:
+    found = read(tmp_path, "vertex,x,y,group\n3.0,0.5,-1.0,4.0\n7.000,1.0,2.25,\n5,1.0,0.0,-1.0\n")
+    assert found.vertices.tolist() == [3, 7, 5] and found.groups.tolist() == [4, -1, -1]
+    assert read(tmp_path, "vertex;x;y\n3,0;0,5;1,0\n").vertices.tolist() == [3]
+    for vertex in ("3.5", "3.", ".0", "3.0.0", "-1.0", "1e0", "12.0"):
+        with pytest.raises(WorkbenchError, match="line 2"):
+            read(tmp_path, f"vertex,x,y\n{vertex},0,0\n")

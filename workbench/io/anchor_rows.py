@@ -172,7 +172,7 @@ def named_columns(header: Sequence[str], dimension: int) -> tuple[str, ...] | No
 def vertex_of(cell: str, vertex_count: int) -> int:
     """The vertex that a cell names. Raises `WorkbenchError`, as all of these do."""
     try:
-        vertex = int(cell)
+        vertex = int(_whole(cell))
     except ValueError:
         raise WorkbenchError(f"{_shown(cell)} is not the number of a vertex.") from None
     if not 0 <= vertex < vertex_count:
@@ -207,11 +207,12 @@ def weight_of(cell: str) -> float:
 
 def group_of(cell: str) -> int:
     """The number of a group; -1 for an anchor that moves alone."""
-    if cell in ("", "-1"):
+    number = _whole(cell)
+    if number in ("", "-1"):
         return -1
-    if not (cell.isascii() and cell.isdigit()) or len(cell) > 20 or int(cell) > LARGEST_GROUP:
+    if not (number.isascii() and number.isdigit()) or len(number) > 20 or int(number) > LARGEST_GROUP:
         raise WorkbenchError(f"the group {_shown(cell)} is not a whole number from 0 on; leave it empty for no group.")
-    return int(cell)
+    return int(number)
 
 
 def switch_of(cell: str) -> bool:
@@ -220,6 +221,12 @@ def switch_of(cell: str) -> bool:
     if word not in ON + OFF:
         raise WorkbenchError(f"{_shown(cell)} is neither on nor off.")
     return word in ON
+
+
+def _whole(cell: str) -> str:
+    """Tables that keep every column as decimals write 5 as 5.0."""
+    before, point, behind = cell.partition(".")
+    return before if point and behind and not behind.strip("0") else cell
 
 
 def _number(cell: str, noun: str) -> float:
