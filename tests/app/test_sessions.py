@@ -333,6 +333,25 @@ def test_a_session_that_does_not_fit_its_mesh_leaves_its_file_alone(window: Main
     assert window.error_bar.isVisible() and window.sessions.desk.path == "", "Ctrl+S would take its place"
 
 
+@pytest.mark.parametrize("has_map", [True, False])
+@pytest.mark.parametrize(
+    "anchors",
+    [
+        {"anchor_vertices": (0,), "anchor_targets": ((0.0, 0.0, 0.0),)},
+        {"anchor_vertices": (10**9,), "anchor_targets": ((0.0, 0.0),)},
+    ],
+    ids=["in space", "beyond the mesh"],
+)
+def test_anchors_that_are_not_of_the_mesh_never_come_to_the_views(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, anchors: dict, has_map: bool
+) -> None:
+    session = Session(source=str(mesh_file(tmp_path)), **anchors)
+    opened_in(window, qtbot, tmp_path / "grid.obj")
+    write_session(tmp_path / "mine.dwb", SessionRecord(session, map=grid_mesh().vertices if has_map else None))
+    opened_in(window, qtbot, tmp_path / "mine.dwb")
+    assert window.error_bar.isVisible() and not len(window.document.anchors) and window.sessions.desk.path == ""
+
+
 def test_a_session_whose_mesh_is_refused_gives_its_name_to_no_other(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     closed = tmp_path / "closed.obj"
     closed.write_text("v 0 0 0\n")

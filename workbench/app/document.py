@@ -22,6 +22,7 @@ from workbench.app.sessions.restoring import (
     drawn_parameters,
     is_on_same_source,
     name_of_anchor_change,
+    suits,
     without_anchors,
 )
 from workbench.app.watches import Watches
@@ -113,7 +114,8 @@ class Document(DocumentState):
         """
         there = self.positions if is_on_same_source(session, self.session) and not self.opening_source else None
         wanted = Wanted(session, positions, run, curves)
-        if positions is not None and there is not None and there.shape == positions.shape:
+        is_here = positions is not None and there is not None and there.shape == positions.shape
+        if is_here and suits(session, there):
             self._take_up(wanted)
         else:
             self.open(session.source, kind=session.kind, fixes=session.fixes, wanted=wanted)
@@ -251,7 +253,7 @@ class Document(DocumentState):
         """The mesh of a session is open: its choices, its anchors, its map."""
         session = replace(wanted.session, fixes=self.session.fixes)
         positions = start if wanted.positions is None else wanted.positions
-        if positions.shape == start.shape and not any(v >= len(start) for v in session.anchor_vertices):
+        if positions.shape == start.shape and suits(session, start):
             self._take_up(replace(wanted, session=session, positions=positions))
             if wanted.positions is None:
                 self._make_start()

@@ -57,6 +57,13 @@ def anchors_in(session: Session) -> AnchorSet:
     )
 
 
+def suits(session: Session, positions: Floats) -> bool:
+    """Whether the anchors of a session are those of a mesh whose maps are (n, d) as `positions`."""
+    count, dimension = positions.shape
+    vertices = max((*session.anchor_vertices, *session.anchors_off), default=0)
+    return vertices < count and all(len(target) == dimension for target in session.anchor_targets)
+
+
 def drawn_parameters(session: Session, changes: Mapping[str, Any]) -> str:
     """Names of the parameters that change while their method stays, as by a slider; empty for any other change."""
     names = sorted(name for name in changes if name.endswith("_parameters"))
