@@ -50,8 +50,18 @@ def plane(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> Inspect
     qtbot.waitUntil(lambda: window.document.snapshot.singular_values is not None)
     qtbot.waitUntil(lambda: len(inspector.body.plane.plot.points.places) == 480)
     qtbot.waitUntil(lambda: inspector.body.plane.plot.field is not None)
-    inspector.body.plane.fit()
-    qtbot.wait(200)
+    page, document = inspector.body.plane, window.document
+
+    def is_at_rest() -> bool:
+        sizes = np.abs(document.snapshot.singular_values[:, [0, -1]])
+        shows_newest = document.snapshot.anchor_serial == document.anchor_serial
+        shows_newest &= np.allclose(page._places, to_places(sizes, True), atol=1e-6)
+        return shows_newest and not page._rest.isActive() and not page._latest.is_busy
+
+    qtbot.waitUntil(is_at_rest)
+    page.fit()
+    qtbot.wait(20)
+    qtbot.waitUntil(is_at_rest)
     return inspector
 
 
