@@ -28,6 +28,8 @@ TYPES = {
 BYTE_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 END = re.compile(rb"(?<=[\r\n])end_header[ \t]*(\r\n|\n|\r)")
 FACES = ("vertex_indices", "vertex_index")
+MOST_PROPERTIES = 1000
+"""Of one element; what scanners write has some hundred at the most."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,8 @@ def _header(path: Path, text: str) -> tuple[str, list[_Element]]:
                 is_list = words[1] == "list"
                 new = _Property(name, TYPES[words[3]], TYPES[words[2]]) if is_list else _Property(name, TYPES[words[1]])
                 last = elements[-1]
+                if len(last.properties) == MOST_PROPERTIES:
+                    raise MeshError(f"{path}: its elements {last.name[:60]!r} have too many properties; it is damaged.")
                 elements[-1] = _Element(last.name, last.rows, (*last.properties, new))
         except (KeyError, IndexError, ValueError):
             raise MeshError(f"{path}: the line {line[:60]!r} of its header is not understood; the file is damaged.") from None
