@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from PySide6.QtCore import QByteArray, QRect, Qt
+from PySide6.QtCore import QByteArray, QRect, QSize, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMainWindow, QMenu, QToolBar
 from pytestqt.qtbot import QtBot
@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from tests.app.conftest import WindowMaker
 from workbench.app.layouts.layouts import DEFAULT, SHOWN, TIPS
 from workbench.app.layouts.screens import fitted
+from workbench.app.layouts.small_screens import make_room
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.core.errors import WorkbenchError
@@ -51,6 +52,23 @@ def test_layouts_of_the_program_show_what_they_are_for(window: MainWindow) -> No
         assert shown(window) == {dock.objectName() for dock in docks(window)}, name
     layouts.apply(DEFAULT)
     assert shown(window) == usual
+
+
+@pytest.mark.parametrize("size", [(1600, 1000), (960, 540), (1200, 480)], ids=str)
+def test_a_small_screen_has_the_panels_that_it_has_room_for(window: MainWindow, size: tuple[int, int]) -> None:
+    window.layouts.apply(DEFAULT)
+    before, available = shown(window), QSize(*size)
+    fits = _fits(window.minimumSizeHint(), available)
+    make_room(window, available)
+    assert _fits(window.minimumSizeHint(), available)
+    assert (shown(window) == before) is fits, "no panel is closed that there is room for"
+    assert not window.panel_dock.isHidden() and not window.maps[-1].isHidden()
+    window.layouts.apply(DEFAULT)
+    assert shown(window) == before
+
+
+def _fits(least: QSize, available: QSize) -> bool:
+    return least.width() <= available.width() and least.height() <= available.height()
 
 
 def test_a_panel_that_is_asked_for_comes_before_those_at_its_place(window: MainWindow, qtbot: QtBot) -> None:

@@ -12,6 +12,7 @@ from PySide6.QtCore import QByteArray, QObject, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QInputDialog, QLineEdit, QMenu, QToolBar
 
 from workbench.app.layouts.screens import bring_on_screen
+from workbench.app.layouts.small_screens import make_room
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -65,6 +66,8 @@ class Layouts(QObject):
         if kept is not None:
             self._window.restoreGeometry(kept[0])
             self._window.restoreState(kept[1])
+        else:
+            make_room(self._window, self._window.screen().availableGeometry().size())
         bring_on_screen(self._window)
 
     def keep(self) -> None:
