@@ -93,6 +93,15 @@ def paint_of(panels: Sequence[Panel], parts: Sequence[Floats]) -> ScalarMappable
     return in_the_way_of(scale, is_reversed=is_reversed, is_clipped=is_clipped)
 
 
+def one_size(halves: Sequence[tuple[float, float]]) -> tuple[float, float] | None:
+    """Half the width and height that hold all of these; None where one is far larger than most."""
+    sizes = np.array(halves)
+    if sizes.max() > MOST_SPREAD * np.median(sizes.max(axis=1)):
+        return None
+    width, height = sizes.max(axis=0)
+    return float(width), float(height)
+
+
 def measure_of(panel: Panel) -> Measure:
     return Measure.of(panel.colour, panel.parameters)
 
@@ -153,10 +162,9 @@ class _Composer:
         found = dict(own)
         for name in {scene.panel.frame for scene in self.scenes.values()} - {""}:
             members = [index for index, scene in self.scenes.items() if scene.panel.frame == name]
-            sizes = np.array([own[index] for index in members])
-            if sizes.max() <= MOST_SPREAD * np.median(sizes.max(axis=1)):
-                width, height = sizes.max(axis=0)
-                found |= dict.fromkeys(members, (float(width), float(height)))
+            common = one_size([own[index] for index in members])
+            if common is not None:
+                found |= dict.fromkeys(members, common)
         return found
 
     @cached_property

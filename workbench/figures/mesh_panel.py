@@ -23,6 +23,7 @@ from workbench.figures.mesh_pictures import (
     in_strips,
     view_of,
 )
+from workbench.figures.picture_sampling import areas
 from workbench.figures.recipe import NO_GLYPHS, Panel
 from workbench.figures.scale_bar_panel import draw_scale_bar
 from workbench.figures.solid_panel import seen_of, veiled, with_made
@@ -40,6 +41,8 @@ WIRE_COLOUR = (0.25, 0.32, 0.40)
 OUTLINE = 0.45
 ANCHOR = 2.4
 """Width of the line round a mesh, size of an anchor, points, at 8 points of text."""
+THICKEST = 0.15
+"""Part of a mesh's area that the line round it may cover; else it is left out."""
 SEAM = 0.25
 """Width of the line in a triangle's own colour that closes the hairline between it and its neighbour, points."""
 
@@ -109,6 +112,9 @@ def draw_scene(
     frame : Frame             what is seen; its density is that of a picture
     size : float              factor of the widths of lines, 1 at 8 points of text
     """
+    left, right, bottom, top = frame.extent
+    axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[], autoscale_on=False)
+    axes.spines[:].set_visible(False)
     carried = carried_layer(scene)
 
     def whole(image: Floats, part: Frame) -> Floats:
@@ -139,9 +145,6 @@ def draw_scene(
             places = scene.points[scene.map.anchors]
             axes.plot(*places.T, "o", ms=ANCHOR * size, color="#0072b2", mec="black", mew=0.3 * size, zorder=4)
     draw_on_top(axes, scene, frame, size)
-    left, right, bottom, top = frame.extent
-    axes.set(xlim=(left, right), ylim=(bottom, top), xticks=[], yticks=[])
-    axes.spines[:].set_visible(False)
 
 
 def draw_on_top(axes: Axes, scene: Scene, frame: Frame, size: float, ink: str = "#222222", paper: str = "white") -> None:
@@ -199,4 +202,9 @@ def _outline(axes: Axes, scene: Scene, size: float) -> None:
     from matplotlib.collections import LineCollection
 
     edges = scene.points[scene.map.mesh.topology.boundary_facets]
+    (left, right), points = axes.get_xlim(), 72.0 / axes.figure.dpi * axes.get_window_extent().width
+    width = OUTLINE * size * (right - left) / points  # in the units of the map
+    covered = width * np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).sum()
+    if covered > THICKEST * areas(scene.points, scene.skin.triangles).sum():
+        return
     axes.add_collection(LineCollection(list(edges), colors="#222222", linewidths=OUTLINE * size, zorder=3), autolim=False)

@@ -27,7 +27,7 @@ def fitting(picture: NDArray[np.uint8], places: Floats, points: Floats, triangle
     from PIL import Image
 
     height, width = picture.shape[:2]
-    there, here = _areas(places[:, :2] * [width, height], triangles), _areas(points[:, :2], triangles)
+    there, here = areas(places[:, :2] * [width, height], triangles), areas(points[:, :2], triangles)
     seen = here > 0
     ratio = np.sqrt(there[seen] / here[seen])
     order, weights = np.argsort(ratio), here[seen]
@@ -37,7 +37,8 @@ def fitting(picture: NDArray[np.uint8], places: Floats, points: Floats, triangle
     return np.asarray(image.reduce(factor) if factor > 1 else image, dtype=np.float64) / 255.0
 
 
-def _areas(points: Floats, triangles: Integers) -> Floats:
+def areas(points: Floats, triangles: Integers) -> Floats:
+    """(m,) of triangles in the plane."""
     p, q, r = points[triangles].transpose(1, 0, 2)
     found: Floats = 0.5 * np.abs((q[:, 0] - p[:, 0]) * (r[:, 1] - p[:, 1]) - (q[:, 1] - p[:, 1]) * (r[:, 0] - p[:, 0]))
     return found

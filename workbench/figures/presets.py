@@ -10,6 +10,7 @@ import numpy as np
 from workbench.core.errors import WorkbenchError
 from workbench.core.samples import make_sample, sample_info
 from workbench.figures.recipe import CHEQUERED, MapChoice, Page, Panel, Recipe
+from workbench.figures.solver_sheet import SheetCell, sheet_page, sheet_panels
 from workbench.io.opening import SAMPLE, open_source
 from workbench.session.session import Session
 
@@ -112,18 +113,10 @@ def _sheet(given: Given) -> Recipe:
             )
             for steps in (*STEPS, LAST)
         ]
-    panels: list[Panel] = []
-    sources = [
-        Panel("source", (choice.name,), CHEQUERED, caption=f"source, {choice.title.removesuffix(', last')}", anchors=False)
-        for choice in rows[-1]
-    ]
-    for row in rows:
-        panels += [Panel("map", (choice.name,), scale="distortion", frame="map") for choice in row]
-        if len(rows) > 1:
-            panels.append(sources.pop(0) if sources else Panel("empty"))
-    columns = len(rows[0]) + (len(rows) > 1)
-    panels += [*sources, Panel("colour-bar", scale="distortion", span=columns)]
-    return Recipe(Page(columns=columns, font_size=7.0), tuple(choice for row in rows for choice in row), tuple(panels))
+    cells = [[SheetCell(choice.name) for choice in row] for row in rows]
+    sources = [SheetCell(choice.name, f"source, {choice.title.removesuffix(', last')}") for choice in rows[-1]]
+    columns, panels = sheet_panels(cells, sources)
+    return Recipe(sheet_page(columns), tuple(choice for row in rows for choice in row), panels)
 
 
 def _dancing(session: Session) -> Session:
