@@ -22,6 +22,7 @@ from workbench.core.carried_step import carried_step
 from workbench.core.energy import Evaluation
 from workbench.core.line_search import SAFETY, armijo, largest_step
 from workbench.core.linear_back_end import SingularMatrixError
+from workbench.core.solver import energy_scale
 from workbench.core.state import Approach, State
 from workbench.core.status import Status
 from workbench.core.turned_steps import turned_step
@@ -274,7 +275,7 @@ def _push(
     # this model is what a step may cost; one that rises far more has left the model's range.
     curvature = work - float(np.einsum("ij,ij->", free_gradient, direction))
     rise = max(slope, 0.0) + 0.5 * max(curvature, 0.0)
-    after = None
+    after, slight = None, 0.02 * energy_scale(problem, energy)
     # Less than that is no progress, and would only press what is in the way flat: the map gives way first, or never does.
     for _ in range(12 if size >= LEAST_PROGRESS else 0):
         if interrupt():
@@ -284,7 +285,7 @@ def _push(
             _place_exactly(problem, candidate)
         problem.workspace.counts["trials"] += 1
         after = problem.evaluate(candidate, 1)
-        allowed = energy + max(4.0 * size * rise, 0.02 * abs(energy))
+        allowed = energy + max(4.0 * size * rise, slight)
         if math.isfinite(after.energy) and not (clean and after.inverted) and after.energy <= allowed:
             break
         size *= 0.5

@@ -27,6 +27,8 @@ ROUNDING = 1e-13
 """A decrease below this part of the energy cannot be told from rounding."""
 ZERO = 1e-14
 """An energy a unit of the source below which it is 0: one whose minimum is 0 never falls by a small part of itself."""
+SLIGHT_STRAIN = 0.05
+"""Square of a strain, all over the map, whose energy counts as slight."""
 CONFIRMATIONS = 5
 """Small decreases in a row that end a run where a single one may be an accident (see `Solver.terminate`)."""
 
@@ -152,6 +154,11 @@ def characteristic_curvature(problem: Problem) -> float:
     if curvature < 1e-12:
         curvature = float(np.linalg.norm(distortion.gradient(sigma)))
     return max(curvature, 1e-30)
+
+
+def energy_scale(problem: Problem, energy: float) -> float:
+    """What rises of the energy are measured by: the energy; where it all but vanishes, as at rest, that of a slight strain."""
+    return max(abs(energy), SLIGHT_STRAIN * characteristic_curvature(problem) * problem.total_measure)
 
 
 def characteristic_gradient(problem: Problem) -> float:

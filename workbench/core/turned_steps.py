@@ -17,6 +17,7 @@ import scipy
 
 from workbench.core.anchor_motion import LARGEST_TURN, twist_between
 from workbench.core.arrays import Floats, Integers, frozen
+from workbench.core.solver import energy_scale
 from workbench.core.state import Approach, State
 from workbench.core.status import Status
 
@@ -65,7 +66,7 @@ def walked_state(problem: Problem, state: State, candidate: Floats) -> State | N
     if not np.isfinite(candidate).all():
         return None
     after = problem.evaluate(candidate, 1)
-    risen = after.energy - state.energy > MOST_RISE * abs(state.energy)
+    risen = after.energy - state.energy > MOST_RISE * energy_scale(problem, state.energy)
     if not math.isfinite(after.energy) or after.inverted > state.inverted or risen:
         return None
     candidate = frozen(candidate)
