@@ -125,6 +125,7 @@ def test_there_are_no_more_than_eight_views_and_none_pushes_the_window_apart(win
         assert window.splitting.split("target", "right" if row % 2 else "below") is not None
     assert window.splitting.split("source", "below") is None
     assert "close one" in window.status.sentence.text()
+    assert len(window.grid.leaves()) == 8
     window.splitting.arrange({}, {})
     window.resize(size)
     qtbot.wait(30)
@@ -137,6 +138,37 @@ def test_the_last_view_stays(window: MainWindow) -> None:
     assert window.target.isVisible() and "last view" in window.status.sentence.text()
     window.splitting.set_visible("source", True)
     assert window.source.isVisible()
+
+
+@pytest.mark.parametrize("where", ["pane", "target"])
+def test_a_view_that_goes_in_the_middle_of_a_drag_takes_the_drag_back(window: MainWindow, where: str, qtbot: QtBot) -> None:
+    """The hand cannot let go in it: an anchor that counted as held would stop undo for good."""
+    document = window.document
+    document.add_anchor(136)
+    before = document.anchors
+    window.splitting.split("target", "right")
+    (pane,) = window.presenter.more
+    qtbot.waitUntil(lambda: pane.view.geometry_shown is not None and pane.view.isVisible())
+    QTest.qWait(60)
+    view, name = (pane.view, pane.objectName()) if where == "pane" else (window.target.view, "target")
+    hand, at = Hand(view), pixel_of(view, 136)
+    hand.press(at)
+    for step in range(1, 5):
+        hand.move(at + QPoint(7, 4) * step)
+        QTest.qWait(20)
+    assert document.is_held and document.anchors != before
+    window.actions_by_name["undo"].trigger()
+    assert "let it go" in window.status.sentence.text() and document.is_held, (
+        "nothing is undone under the hand, and that is said"
+    )
+    window.splitting.close_view(name)
+    assert not document.is_held and document.anchors == before
+    QTest.qWait(30)
+    window.undoing.undo()
+    assert 136 not in document.anchors
+    window.splitting.set_visible("target", True)
+    for other in list(window.presenter.more):
+        window.splitting.close_view(other.objectName())
 
 
 def test_cameras_of_one_kind_go_together_and_never_with_another(window: MainWindow, qtbot: QtBot) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -72,8 +73,8 @@ class Commands(QObject):
             "open-session": window.sessions.ask_open,
             "save-session": window.sessions.save,
             "save-session-as": window.sessions.ask_save,
-            "undo": window.undoing.undo,
-            "redo": window.undoing.redo,
+            "undo": lambda: self._go_through_history(window.undoing.undo),
+            "redo": lambda: self._go_through_history(window.undoing.redo),
             "fill": self.filling.ask,
             "equations": self.binding.ask,
             **{name: lambda n=name: self.exporting.ask(n) for name in KINDS},
@@ -129,6 +130,15 @@ class Commands(QObject):
             self.dissection.close()
         if self._boundary_search is not None:
             self._boundary_search.wait()
+
+    def _go_through_history(self, deed: Callable[[], None]) -> None:
+        """Undo or redo, or say what has to be over first."""
+        if self._document.is_held:
+            self._window.status.say("An anchor is being moved: let it go first, or take that back with Esc.")
+        elif self._document.opening_source:
+            self._window.status.say("A mesh is being read: undo and redo wait until it is there.")
+        else:
+            deed()
 
     # ------------------------------------------------------------------------------------------ files
 

@@ -210,7 +210,10 @@ class Splitting(QObject):
 
     def set_visible(self, name: str, visible: bool) -> None:
         """Show source or target again, or hide it; the last view of the centre stays."""
-        widget = self._leaves[name].widget
+        widget, window = self._leaves[name].widget, self._window
+        for own, tool in (("source", window.source_tool), ("target", window.target_tool)):
+            if name == own and not visible:
+                tool.cancel()
         widget.setProperty(CLOSED, not visible)
         widget.setVisible(visible)
         self._window.turns.all_stale()
@@ -227,6 +230,7 @@ class Splitting(QObject):
         self.links.remove(leaf.view)
         del self._leaves[leaf.name]
         if leaf.tool is not None:
+            leaf.tool.cancel()  # the hand cannot let go in a view that is gone
             leaf.tool.let_go()
             window.document.opened.disconnect(leaf.tool.let_go)
         leaf.view.close_view()
