@@ -70,6 +70,19 @@ def test_ellipses_are_images_of_equal_circles_and_number_and_size_are_chosen(gly
     assert before < len(drawn(glyphs, window.source.view)) <= MOST
 
 
+def test_source_and_map_are_measured_by_one_unit_though_they_are_drawn_in_two(
+    glyphs: Glyphs, window: MainWindow, qtbot: QtBot
+) -> None:
+    window.open("bumpy")
+    views = window.source.view, window.target.view
+    qtbot.waitUntil(lambda: window.document.kind == "parameterize" and views[1].geometry_shown is not None)
+    frames = [view.geometry_shown.frame for view in views]
+    assert frames[0].scale != pytest.approx(frames[1].scale, rel=1e-3)
+    ends = [drawn(glyphs, view) / frame.scale for view, frame in zip(views, frames, strict=True)]
+    of_source, of_map = (np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1) for lines in ends)
+    np.testing.assert_allclose(of_source, of_map, rtol=2e-3)
+
+
 def test_more_and_larger_are_grey_until_there_are_some(glyphs: Glyphs, window: MainWindow) -> None:
     amounts = [window.actions_by_name[f"glyphs-{name}"] for name in ("more", "fewer", "larger", "smaller")]
     for kind in ("none", "stretches", "none"):
