@@ -8,7 +8,6 @@ from functools import lru_cache
 import numpy as np
 
 from workbench.app.first_anchors import is_sample
-from workbench.core.jacobians import build_elements, determinants
 from workbench.core.registry import registry
 from workbench.core.seams import texture_at_vertices
 from workbench.engine.messages import Loaded
@@ -66,5 +65,7 @@ def _counted(loaded: Loaded) -> tuple[int, int] | None:
     positions = texture_at_vertices(loaded.mesh)
     if positions is None:
         return None
+    from workbench.core.jacobians import build_elements, determinants
+
     found = determinants(build_elements(loaded.mesh), positions)
     return int(np.count_nonzero(~(found > 0))), int(np.count_nonzero(~(found < 0)))

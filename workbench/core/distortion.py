@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,9 @@ from workbench.core.arrays import Floats
 from workbench.core.errors import FormulaError, WorkbenchError
 from workbench.core.formula import CompiledFormula, compile_formula, names_in_formula
 from workbench.core.method import KINDS, Kind, Parameter
-from workbench.core.tape import Tape
+
+if TYPE_CHECKING:
+    from workbench.core.tape import Tape
 
 KEPT_FENCES = 4
 """Fenced variants of a distortion that are kept compiled."""

@@ -9,7 +9,6 @@ import numpy as np
 import scipy
 
 from workbench.core.arrays import Floats, Integers
-from workbench.core.refine.edge_table import edges_of_faces, edges_of_tetrahedra
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +27,8 @@ class EdgeGraph:
     @cached_property
     def edges(self) -> Integers:
         """(e, 2) int64, each once, the smaller vertex first"""
+        from workbench.core.refine.edge_table import edges_of_faces, edges_of_tetrahedra
+
         table = edges_of_tetrahedra if self.simplices.shape[1] == 4 else edges_of_faces
         return table(self.simplices, len(self.vertices)).ends
 

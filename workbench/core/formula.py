@@ -12,13 +12,16 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, reduce
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from workbench.core.errors import FormulaError
 from workbench.core.exponentials import logarithm
 from workbench.core.expression import Graph, Op
-from workbench.core.tape import Tape, compile_tape
+
+if TYPE_CHECKING:
+    from workbench.core.tape import Tape
 
 MAXIMUM_LENGTH = 2000
 MAXIMUM_DEPTH = 64
@@ -116,6 +119,8 @@ def compile_formula(
         root = graph.select(graph.datum(), graph.one, root, other)
     first = [graph.derivative(root, i) for i in range(dimension)]
     pairs = [(i, j) for i in range(dimension) for j in range(i, dimension)]
+    from workbench.core.tape import compile_tape  # late: the window reads formulas, and compiles them when it has been seen
+
     hessian = compile_tape(graph, [root, *first, *(graph.derivative(first[i], j) for i, j in pairs)])
     majoriser = hessian
     if graph.has_switches:
@@ -163,6 +168,8 @@ def names_in_formula(text: str) -> tuple[str, ...]:
 
 
 def _check_values(graph: Graph, root: int, dimension: int) -> None:
+    from workbench.core.tape import compile_tape
+
     tape = compile_tape(graph, [root])
     points = np.array([[*p[:dimension], *[1.0] * (tape.variable_count - dimension)] for p in TEST_POINTS])
     values = tape.evaluate(points)[:, 0]

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers, Points
 from workbench.core.even_sample import even_sample
 from workbench.core.mesh import Mesh
-from workbench.core.principal_stretches import PrincipalStretches, StretchProbe
+
+if TYPE_CHECKING:
+    from workbench.core.principal_stretches import PrincipalStretches
 
 FILLED = 0.42
 """Radius of a circle in the source, as a part of the distance between two."""
@@ -47,6 +50,8 @@ class GlyphPlaces:
         centres[~np.isfinite(centres)] = 0.0
         self.rows = even_sample(centres, count)
         self.triangles = triangles[self.rows]
+        from workbench.core.principal_stretches import StretchProbe
+
         self._probe = StretchProbe(mesh, self.rows if owners is None else owners[self.rows])
         self.radius = FILLED * (_area(points, triangles) / max(len(self.rows), 1)) ** 0.5
         """Of the circles, in the unit of `points`."""

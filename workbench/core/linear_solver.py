@@ -8,6 +8,7 @@ import numpy as np
 import scipy
 
 from workbench.core.arrays import Floats
+from workbench.core.back_end_names import CHOICE, available_back_ends
 from workbench.core.cholesky import CholeskyFactor, NotPositiveDefiniteError, analyse_pattern
 from workbench.core.cholmod_library import load_cvxopt
 from workbench.core.conjugate_gradients import ConjugateGradients
@@ -141,8 +142,6 @@ BACK_ENDS: dict[str, type[LinearSolver]] = {
 }
 
 
-CHOICE = "WORKBENCH_LINEAR_SOLVER"
-"""Environment variable that names a back end."""
 LARGE_SOLID = 150_000
 """Unknowns of a solid above which conjugate gradients are taken.
 
@@ -150,18 +149,6 @@ On compact solids they are twice as fast as a factorisation at 58 k unknowns alr
 5 GB more (python -m tests.benchmarks.tetrahedra). But long thin limbs need many times the iterations, and a hand that drags
 is better answered by a factor that is kept: so they wait until even then a factor would be the slower.
 """
-
-
-def available_back_ends() -> tuple[str, ...]:
-    """Names of the back ends that factorise and whose libraries can be imported, the preferred one first."""
-    from importlib.util import find_spec
-
-    names = ["multifrontal"]
-    if find_spec("cvxopt"):
-        names.append("cholmod")
-    if find_spec("pypardiso"):
-        names.append("pardiso")
-    return (*names, "superlu")
 
 
 def check_back_end(name: str) -> None:

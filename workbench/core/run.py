@@ -8,24 +8,11 @@ from dataclasses import dataclass, field, replace
 
 from workbench.core.arrays import Floats
 from workbench.core.guarded_step import guarded_step
+from workbench.core.history_row import HistoryRow
 from workbench.core.problem import Criteria, Problem
 from workbench.core.solver import Interrupt, Solver, never
 from workbench.core.state import State
 from workbench.core.status import Status
-
-
-@dataclass(frozen=True)
-class HistoryRow:
-    """One line of the history: the map after `iteration` steps, `seconds` after the start."""
-
-    iteration: int
-    seconds: float
-    energy: float
-    mean_distortion: float
-    gradient_norm: float
-    step_size: float
-    inverted: int
-    anchor_error: float
 
 
 @dataclass(frozen=True)

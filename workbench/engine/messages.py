@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from workbench.core.arrays import Booleans, Floats, Integers, frozen
 from workbench.core.constraints import Anchors
-from workbench.core.dissection import Dissection
+from workbench.core.history_row import HistoryRow
 from workbench.core.measure import Measure
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
-from workbench.core.run import HistoryRow
 from workbench.core.status import Status
+
+if TYPE_CHECKING:
+    from workbench.core.dissection import Dissection
 
 # ---------------------------------------------------------------------------------------------- commands
 

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 from workbench.core.arrays import Booleans, Floats
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
 from workbench.engine.messages import Command, Report, Reset, Run, SetAnchors, SetProblem
-from workbench.engine.race import Marker, RaceRow
+
+if TYPE_CHECKING:
+    from workbench.engine.race import Marker, RaceRow
 
 Axis = Literal["iteration", "seconds"]
 AXES: tuple[Axis, ...] = ("iteration", "seconds")

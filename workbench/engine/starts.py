@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.initializer import StartRequest
-from workbench.core.jacobians import build_elements, determinants
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
-from workbench.core.problem import Problem
 from workbench.core.registry import registry
+
+if TYPE_CHECKING:
+    from workbench.core.problem import Problem
 
 OWN_SCALE = ("rest", "file", "auto", "arap-start")
 """Initializers whose scale is meant."""
@@ -67,6 +68,8 @@ def make_start(
 
 def adjusted_start(mesh: Mesh, kind: Kind, start: Floats, match_area: bool) -> Floats:
     """The start (n, d) reflected where all of it is mirrored, and scaled to the area of the source where asked."""
+    from workbench.core.jacobians import build_elements, determinants
+
     elements = build_elements(mesh)
     det = determinants(elements, start)
     if kind == "parameterize" and (det < 0).all():

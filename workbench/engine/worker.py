@@ -8,16 +8,13 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from multiprocessing.connection import Connection
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from workbench.core.errors import WorkbenchError
-from workbench.core.jacobians import build_elements
 from workbench.engine.child import WithoutMainModule, exit_words
-from workbench.engine.corrector import SMALLEST, corrector_main
 from workbench.engine.head_start import NAME, BegunEngine, begin_engine
-from workbench.engine.live import LiveColours
 from workbench.engine.messages import (
     Command,
     Load,
@@ -41,6 +38,9 @@ from workbench.engine.messages import (
 from workbench.engine.priority import run_child
 from workbench.engine.process_owner import ProcessOwner
 from workbench.engine.shared_positions import PositionRing
+
+if TYPE_CHECKING:
+    from workbench.engine.live import LiveColours
 
 CRASHES_IN_A_ROW = 3
 """Deaths after which a new process is given the default methods, and does not run; after twice as many there is no new one."""
@@ -210,6 +210,9 @@ class EngineWorker(ProcessOwner):
             self._loading, self._running = None, None
             for kind in (SetAnchors, Reset):
                 self._settings.pop(kind, None)
+            from workbench.core.jacobians import build_elements
+            from workbench.engine.live import LiveColours
+
             self._colours = LiveColours(build_elements(report.mesh))
             self._begin_to_watch()
             self._start_corrector()
@@ -285,6 +288,8 @@ class EngineWorker(ProcessOwner):
 
     def _start_corrector(self) -> None:
         """The second process, once a mesh is large enough for it to help; a restart of the engine ends it."""
+        from workbench.engine.corrector import SMALLEST, corrector_main
+
         if self._correctors_end is None or self._loaded is None or self._loaded.mesh.simplex_count < SMALLEST:
             return
         with WithoutMainModule():

@@ -10,6 +10,7 @@ from workbench.core.arrays import Booleans, Integers, Points
 from workbench.core.errors import WorkbenchError
 from workbench.core.glyph_places import GlyphPlaces, PlacedGlyphs
 from workbench.core.glyph_shapes import ellipses, stretch_lines
+from workbench.figures.glyph_colours import BODY, EQUAL, LONGER, SHORTER
 from workbench.figures.mesh_pictures import Frame, nearness
 
 if TYPE_CHECKING:
@@ -17,12 +18,6 @@ if TYPE_CHECKING:
 
     from workbench.figures.mesh_panel import Scene
 
-LONGER = (0.78, 0.16, 0.12)
-SHORTER = (0.10, 0.32, 0.80)
-EQUAL = (0.45, 0.45, 0.45)
-"""Colours of what is stretched, of what is squeezed, and of what keeps its length."""
-BODY = (0.93, 0.62, 0.30)
-"""Colour of the image of a ball."""
 INK = (0.11, 0.13, 0.15)
 LINE, CASING, RING = 0.55, 1.15, 0.45
 """Widths of lines, of what is white below them, and of ellipses, points, at 8 points of text."""

@@ -14,7 +14,6 @@ from workbench.app.views.actors import actor_of, cells, mapper_of
 from workbench.app.views.colours import table_of
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Floats, Integers
-from workbench.core.surface_normals import vertex_normals
 
 
 class CarriedLayer:
@@ -53,6 +52,8 @@ class CarriedLayer:
         geometry = self._view.geometry_shown
         if geometry is None:
             return
+        from workbench.core.surface_normals import vertex_normals
+
         np.copyto(self._points, geometry.frame.to_display(vertices), casting="same_kind")
         np.copyto(self._normals, vertex_normals(vertices, self._triangles), casting="same_kind")
         for data in (self._point_data, self._normal_data, self._vtk_points):

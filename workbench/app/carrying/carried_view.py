@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -18,11 +18,10 @@ from workbench.app.document import Document
 from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats
-from workbench.core.carried_surface import CarriedSurface
 from workbench.core.mesh import Mesh
-from workbench.engine.carried_source import carry_source
-from workbench.engine.carrying_kernels import compile_carrying
-from workbench.io.write import write_surface
+
+if TYPE_CHECKING:
+    from workbench.core.carried_surface import CarriedSurface
 
 NOTHING = "Nothing is carried: File > Carry a surface puts one into a solid."
 
@@ -83,6 +82,9 @@ class CarriedView(QObject):
         self.told.emit("Looking where the surface lies in the solid…")
 
         def work() -> CarriedSurface:
+            from workbench.engine.carried_source import carry_source
+            from workbench.engine.carrying_kernels import compile_carrying
+
             compile_carrying()
             return carry_source(source, mesh)
 
@@ -97,6 +99,8 @@ class CarriedView(QObject):
 
         def work() -> None:
             moved = surface.at(positions)
+            from workbench.io.write import write_surface
+
             write_surface(path, surface.surface, moved, surface.table(moved))
 
         self._begin(work, lambda _: self.told.emit(f"Saved {path}."))

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt
 
-from workbench.app.citing.citation_dialog import CitationDialog
 from workbench.app.new_file import stem_of
 from workbench.core.errors import WorkbenchError
-from workbench.engine.citing import cited_in
 from workbench.io.atomic import write_text
 
 if TYPE_CHECKING:
+    from workbench.app.citing.citation_dialog import CitationDialog
     from workbench.app.main_window import MainWindow
 
 
@@ -29,6 +28,9 @@ class Citing(QObject):
         """Show what to cite for the session as it is now, and for the legs that led to its map."""
         window = self._window
         desk, loaded = window.sessions.desk, window.document.loaded
+        from workbench.app.citing.citation_dialog import CitationDialog
+        from workbench.engine.citing import cited_in
+
         methods = cited_in(desk.record(), loaded.kind) if desk.has_something and loaded is not None else ()
         stem = stem_of(window.document.session.source) or "workbench"
         if self.dialog is not None:

@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from workbench.core.arrays import Floats, Integers
-from workbench.core.carried_surface import CarriedSurface
 from workbench.core.errors import WorkbenchError
+from workbench.core.history_row import HistoryRow
 from workbench.core.mesh import Mesh
 from workbench.core.method import Kind
-from workbench.core.run import HistoryRow
 from workbench.figures.recipe import MapChoice, Page, Panel, Recipe
 from workbench.io.atomic import write_bytes
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
+    from workbench.core.carried_surface import CarriedSurface
     from workbench.figures.figure_maps import FigureMap
 
 NAME = "map"

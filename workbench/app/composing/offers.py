@@ -11,8 +11,8 @@ from workbench.app.history import COLUMNS
 from workbench.app.new_file import stem_of
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS, Pattern
+from workbench.core.history_row import HistoryRow
 from workbench.core.measure import Measure
-from workbench.core.run import HistoryRow
 from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, PICTURE, PLAIN, CarriedLook, Panel, SolidLook
 from workbench.session.session import Session
 

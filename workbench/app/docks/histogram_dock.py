@@ -19,7 +19,6 @@ from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.theme import Theme
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
-from workbench.core.jacobians import simplex_measures
 from workbench.core.mesh import Mesh
 from workbench.engine.messages import Snapshot
 
@@ -157,6 +156,8 @@ class HistogramDock(QuantityDock):
         if not self.is_weighted or self._mesh is None or self._mesh.simplex_count != len(self._bins):
             return None
         if self._areas is None:
+            from workbench.core.jacobians import simplex_measures
+
             self._areas = simplex_measures(self._mesh)
         return self._areas
 

@@ -20,12 +20,9 @@ from workbench.app.exporting.session_pictures import png_of, session_binder
 from workbench.app.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.core.unit_square import into_unit_square
-from workbench.engine.python_script import write_script
-from workbench.engine.run_report import history_text
 from workbench.figures.recipe import Page
 from workbench.io.atomic import write_bytes, write_text
 from workbench.io.opening import OpenedSource, open_source
-from workbench.io.write import write_map
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
@@ -91,13 +88,21 @@ class Exporting(QObject):
 
     def _write_history(self, path: str) -> None:
         rows = rows_of(self._window.history)
-        self._start(lambda: write_text(path, history_text(rows)), path)
+
+        def write() -> None:
+            from workbench.engine.run_report import history_text
+
+            write_text(path, history_text(rows))
+
+        self._start(write, path)
 
     def _write_script(self, path: str) -> None:
         seal = self._window.sessions.desk.sealer()
 
         def work() -> None:
             record = seal()
+            from workbench.engine.python_script import write_script
+
             write_script(path, record, _opened(record.session))
 
         self._start(work, path)
@@ -107,6 +112,8 @@ class Exporting(QObject):
 
         def work() -> None:
             opened = _opened(record.session)
+            from workbench.io.write import write_map
+
             write_map(path, opened.file.mesh, opened.mesh, into_unit_square(record.map), opened.kind)
 
         self._start(work, path)

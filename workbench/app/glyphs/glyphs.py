@@ -18,7 +18,6 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.core.glyph_places import GlyphPlaces
 from workbench.core.mesh import Mesh
 from workbench.core.solid_look.drawn_faces import DrawnFaces
-from workbench.engine.stretch_kernels import compile_stretches
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -142,6 +141,8 @@ class Glyphs(QObject):
         """Whether the kernel is there; else it is compiled beside the window, once, and glyphs come then."""
         if self._is_ready or self._compiling is not None:
             return self._is_ready
+        from workbench.engine.stretch_kernels import compile_stretches
+
         self._compiling = Background(compile_stretches, self)
         self._compiling.finished.connect(self._take_kernel)
         self._compiling.failed.connect(self._window.reporter.show_exception)

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from workbench.core.back_end_names import available_back_ends
 from workbench.core.errors import WorkbenchError
-from workbench.core.linear_solver import available_back_ends
 from workbench.core.method import Parameter
 from workbench.session.session import Session
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from workbench.app.views.canvas import CHOICE as DRAWING
-from workbench.core.linear_solver import CHOICE as LINEAR_SOLVER
+from workbench.core.back_end_names import CHOICE as LINEAR_SOLVER
 from workbench.core.threads import COUNT as THREADS
 
 VARIABLES = {"threads": THREADS, "linear_solver": LINEAR_SOLVER, "drawing": DRAWING}

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from workbench.core.simplex_reading import SimplexReading
+if TYPE_CHECKING:
+    from workbench.core.simplex_reading import SimplexReading
 
 SUBSCRIPTS = "₁₂₃"
 

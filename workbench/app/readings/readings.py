@@ -15,7 +15,6 @@ from workbench.app.splitting.leaf import Leaf
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Evaluator
 from workbench.core.registry import registry
-from workbench.core.simplex_reading import read_simplex
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -106,6 +105,8 @@ class Readings(QObject):
         if not 0 <= simplex < mesh.simplex_count:
             self.panel.hide()
             return
+        from workbench.core.simplex_reading import read_simplex
+
         reading = read_simplex(mesh, shown.positions, simplex, self._evaluators(mesh.dimension))
         text = words_of(reading, leaf.view.vertex_at(pixel), mesh.simplex_noun(), self._name_of_shown(leaf))
         where = leaf.view.mapTo(self._window, QPoint(round(pixel[0]), round(pixel[1])))

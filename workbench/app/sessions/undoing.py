@@ -17,7 +17,6 @@ from workbench.app.reporter import source_name
 from workbench.app.sessions.restoring import is_on_same_source, with_anchors
 from workbench.app.switches import switched
 from workbench.core.arrays import Floats
-from workbench.core.jacobians import build_elements, determinants
 from workbench.engine.messages import Refused
 from workbench.session.session import Session
 from workbench.session.undo import UndoHistory
@@ -210,6 +209,8 @@ class Undoing(QObject):
         mesh = self._document.mesh
         if mesh is None or positions.shape != (mesh.vertex_count, mesh.dimension):
             return False
+        from workbench.core.jacobians import build_elements, determinants
+
         return bool(np.all(determinants(build_elements(mesh), positions) > 0))
 
     def set_memory(self, limit: int) -> None:

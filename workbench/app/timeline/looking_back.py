@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import count
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -11,14 +12,15 @@ from workbench.app.document import Document
 from workbench.app.inspector.latest import Latest
 from workbench.app.timeline.recorder import Recorder, anchors_of
 from workbench.core.errors import WorkbenchError
-from workbench.core.jacobians import Elements, build_elements
+from workbench.core.history_row import HistoryRow
 from workbench.core.measure import Measure, SingularValues
 from workbench.core.mesh import Mesh
-from workbench.core.run import HistoryRow
 from workbench.core.status import Status
-from workbench.core.surface_jacobians import singular_values_of_any
 from workbench.engine.messages import Snapshot, Watch
 from workbench.session.moments import Moment
+
+if TYPE_CHECKING:
+    from workbench.core.jacobians import Elements
 
 _numbers = count(-2, -1)
 """Of snapshots of the past: below all that the engine gives."""
@@ -32,6 +34,9 @@ class Measurer:
         self._elements: Elements | None = None
 
     def singular_values(self, moment: Moment) -> SingularValues:
+        from workbench.core.jacobians import build_elements
+        from workbench.core.surface_jacobians import singular_values_of_any
+
         if self._elements is None:
             self._elements = build_elements(self.mesh)
         return SingularValues(singular_values_of_any(self._elements, moment.positions))

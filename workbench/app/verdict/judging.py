@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject
 
-from workbench.app.verdict.verdict_window import VerdictWindow
 from workbench.core.arrays import Integers
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
+    from workbench.app.verdict.verdict_window import VerdictWindow
 
 ORIGIN = "verdict"
 """Name under which places are brushed."""
@@ -32,6 +32,8 @@ class Judging(QObject):
         if self._window.document.mesh is None:
             return
         if self.list is None:
+            from workbench.app.verdict.verdict_window import VerdictWindow
+
             self.list = VerdictWindow(self._window.document, self._window)
             self.list.shown.connect(self._show)
             self.list.alone_wanted.connect(lambda alone: self._window.volume.choose(only_marked=alone))

@@ -16,7 +16,7 @@ from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Integers
 from workbench.core.glyph_places import PlacedGlyphs
 from workbench.core.glyph_shapes import ball, ellipses, ellipsoids, stretch_lines
-from workbench.figures.glyph_panel import BODY, EQUAL, LONGER, SHORTER
+from workbench.figures.glyph_colours import BODY, EQUAL, LONGER, SHORTER
 
 NEARER = 40.0
 """How far lines are put before the triangles that they lie in."""

@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
-from workbench.core.jacobians import build_elements, signed_singular_values
 from workbench.core.mesh import Mesh
 from workbench.core.refine.refined import Refined, refined_levels
 from workbench.core.solver import Interrupt, never
@@ -49,6 +48,8 @@ def measure_levels(
     A parameterization that is mirrored as a whole is measured as its reflection.
     Raises `WorkbenchError` as `refine` does, and `MeshError` for a source with simplices of no area or volume.
     """
+    from workbench.core.jacobians import build_elements, signed_singular_values
+
     if positions is None and mesh.texture is None:
         raise WorkbenchError("There is no map to measure: neither positions nor texture coordinates.")
     if positions is not None and np.shape(positions)[1:] != (mesh.dimension,):
