@@ -145,6 +145,16 @@ def test_what_was_under_way_does_not_come_into_the_curves(room: Room) -> None:
     assert room.history.column("iteration").max() == 0, "a start made anew begins with its own rows"
 
 
+def test_another_start_leaves_no_row_of_the_one_before(room: Room) -> None:
+    """Nobody reads reports between the two starts."""
+    steps = (room.document.reset, lambda: room.document.choose(initializer="harmonic"), room.document.reset)
+    for make in steps:
+        make()
+    room.settle()
+    assert room.history.column("iteration").tolist() == [0.0]
+    assert room.history.column("energy")[0] == room.document.snapshot.row.energy  # type: ignore[union-attr]
+
+
 def test_going_to_and_fro_at_once_loses_no_map(room: Room) -> None:
     step(room, 4)
     room.settle()
@@ -192,9 +202,8 @@ def test_rows_of_before_are_told_from_those_after() -> None:
     row = HistoryRow(0, 0.0, 5.0, 1.0, 0.5, 1.0, 0, 0.0)
     rows = [replace(row, iteration=i, seconds=s) for i, s in ((7, 0.7), (8, 0.8), (3, 0.3), (4, 0.4))]
     assert rows_after(rows, 3, 0.3) == rows[3:] and rows_after(rows, 9, 0.9) == rows
-    assert [begin_of_run(rows, last) for last in (0, 5)] == [-1, -1]
-    begun = [*rows, row, rows[3], row, replace(row, energy=4.0)]
-    assert begin_of_run(begun, 0) == 6 and begin_of_run([row], 5) == 0 and begin_of_run([row], 0) == -1
+    assert begin_of_run(rows) == -1 and begin_of_run([row]) == 0
+    assert begin_of_run([*rows, row, rows[3], row, replace(row, energy=4.0), rows[3]]) == 7
 
 
 def test_curves_count_in_what_undoing_may_take(room: Room) -> None:

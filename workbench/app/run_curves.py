@@ -38,10 +38,9 @@ class RunCurves(QObject):
         if self._returned is not None:
             returned, self._returned = self._returned, None
             rows = rows_after(rows, returned.iteration, returned.seconds)
-        last = self._history.column("iteration")[-1] if len(self._history) else 0
-        begin = begin_of_run(rows, last)
+        begin = begin_of_run(rows)
         if begin >= 0:
-            self._history.clear()  # what was under way when the start was made anew came before it
+            self._history.clear()  # another start, or what was under way when it was made anew, came before it
             rows = rows[begin:]
         self._history.extend(rows)
 
@@ -59,10 +58,9 @@ class RunCurves(QObject):
         self.begun_again.emit()
 
 
-def begin_of_run(rows: Sequence[HistoryRow], last: float) -> int:
-    """Place of the row of a start that follows rows of a run, whose last one may be of iteration `last`; -1 where none does."""
-    iterations = [last, *(row.iteration for row in rows)]
-    return max((at for at, row in enumerate(rows) if row.iteration == row.seconds == 0 < iterations[at]), default=-1)
+def begin_of_run(rows: Sequence[HistoryRow]) -> int:
+    """Place of the newest row of a map that nothing has stepped, with which the curves begin; -1 where there is none."""
+    return max((at for at, row in enumerate(rows) if row.iteration == row.seconds == 0), default=-1)
 
 
 def rows_after(rows: Sequence[HistoryRow], iteration: int, seconds: float) -> Sequence[HistoryRow]:
