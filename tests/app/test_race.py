@@ -403,6 +403,7 @@ def test_the_document_takes_a_map(racing: Racing, window: MainWindow, qtbot: QtB
 
 def test_restart_and_other_contestants_begin_anew(racing: Racing, qtbot: QtBot) -> None:
     race = begin(racing, qtbot, NEWTON, DESCENT, AQP)
+    assert race.windowTitle().startswith("Race: ") and len(race.windowTitle()) > len("Race: "), "of which mesh"
     finish(race, qtbot)
     race.actions_by_name["restart"].trigger()
     qtbot.waitUntil(lambda: all(r.frame is not None and r.iterations == 0 for r in race.model.records))
@@ -441,27 +442,24 @@ def test_themes_reach_the_race(racing: Racing, window: MainWindow, qtbot: QtBot)
 
 # ----------------------------------------------------------------------------------------- a process of its own
 
-LONG = 60_000
-"""Milliseconds: the first use compiles kernels."""
-
 
 def test_a_killed_process_is_said_and_the_race_begins_anew(racing: Racing, qtbot: QtBot) -> None:
     racing.make_worker = None
     racing.begin(RaceChoice((NEWTON, DESCENT), "", True, 100_000, 0.0))
     race = racing.race
     model = race.model
-    qtbot.waitUntil(lambda: all(record.frame is not None for record in model.records), timeout=LONG)
+    qtbot.waitUntil(lambda: all(record.frame is not None for record in model.records))
     race.actions_by_name["run"].trigger()
-    qtbot.waitUntil(lambda: model.records[1].iterations > 5, timeout=LONG)
+    qtbot.waitUntil(lambda: model.records[1].iterations > 5)
     assert model.is_running and race.actions_by_name["run"].text() == "Pause"
     os.kill(model.bridge._worker.process_id, signal.SIGKILL)
-    qtbot.waitUntil(race.error_bar.isVisible, timeout=LONG)
+    qtbot.waitUntil(race.error_bar.isVisible)
     assert "killed" in race.error_bar.sentence.text() and not model.is_running
     assert not race.actions_by_name["run"].isEnabled()
     kept = model.records[0].frame.positions
     assert kept is not None  # what was shown stays
     race.actions_by_name["restart"].trigger()
-    qtbot.waitUntil(lambda: model.is_ready and all(r.frame is not None for r in model.records), timeout=LONG)
+    qtbot.waitUntil(lambda: model.is_ready and all(r.frame is not None for r in model.records))
     assert race.error_bar.isHidden()
     race.actions_by_name["step"].trigger()
-    qtbot.waitUntil(lambda: all(record.iterations == 1 for record in model.records), timeout=LONG)
+    qtbot.waitUntil(lambda: all(record.iterations == 1 for record in model.records))

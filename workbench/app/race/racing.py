@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject
 
 from workbench.app.background import Background
 from workbench.app.orders import held_anchors
+from workbench.app.reporter import source_name
 from workbench.engine.messages import Reset, Run, SetAnchors, SetProblem
 from workbench.engine.race_messages import StartRace, StartWish
 
@@ -97,7 +98,9 @@ class Racing(QObject):
             return
         self._document.pause()
         self._generation = self._document.generation
+        title = f"Race: {source_name(self._document.session.source)}"  # the document may go on to another mesh meanwhile
         if self.race is not None:
+            self.race.setWindowTitle(title)
             self.race.begin(set_up)
             return
         from workbench.app.race.race_bridge import race_worker
@@ -113,6 +116,7 @@ class Racing(QObject):
             window,
             self.make_worker or race_worker,
         )
+        self.race.setWindowTitle(title)
         self.race.take_wanted.connect(self.take_map)
         self.race.switch_wanted.connect(self.ask_switch)
         self.race.set_up_wanted.connect(self.ask_contestants)
