@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QCheckBox, QComboBox, QLineEdit, QWidget
 from pytestqt.qtbot import QtBot
 
 from workbench.app.composing.figure_dialog import FigureDialog
 from workbench.app.composing.figure_work import NAME, Order, Subject, draw_preview, save
-from workbench.app.composing.offers import offers_of, subject_of
+from workbench.app.composing.offers import Offer, offers_of, subject_of
 from workbench.app.main_window import MainWindow
+from workbench.app.timeline.film_dialog import FilmDialog
 from workbench.app.views.textures import pattern_image
 from workbench.core.errors import WorkbenchError
 from workbench.core.run import HistoryRow
@@ -23,7 +25,7 @@ from workbench.figures.composer import compose
 from workbench.figures.figure_maps import make_maps
 from workbench.figures.mesh_panel import scene_of
 from workbench.figures.mesh_pictures import is_inked
-from workbench.figures.recipe import Page, Panel
+from workbench.figures.recipe import PLAIN, Page, Panel
 from workbench.figures.recipe_text import read_recipe
 from workbench.figures.save import save_figure
 from workbench.figures.texture_panel import texture_places
@@ -158,3 +160,31 @@ def test_patterns_lie_on_paper_as_they_do_in_the_views(window: MainWindow, tmp_p
             dark = seen < 200
             assert (dark == is_inked(ours, scene.panel.colour)).mean() > 0.95, "but for points on the edge of a field"
             assert 0.02 < dark.mean() < 0.98
+
+
+def test_every_choice_of_both_dialogs_asks_for_a_preview(qtbot: QtBot, qapp: QApplication, tmp_path: Path) -> None:
+    offers = [Offer("Target", Panel("map", (NAME,), PLAIN))]
+    parent = QWidget()
+    qtbot.addWidget(parent)
+    for dialog in (
+        FigureDialog(offers, "a", str(tmp_path), parent),
+        FilmDialog(offers, False, True, tmp_path / "a.gif", parent),
+    ):
+        fields = [box for kind in (QAbstractSpinBox, QComboBox, QCheckBox, QLineEdit) for box in dialog.findChildren(kind)]
+        fields = [box for box in fields if not isinstance(box.parent(), QAbstractSpinBox)]
+        assert len(fields) >= 8
+        for field in fields:
+            dialog._timer.stop()
+            if isinstance(field, QAbstractSpinBox):
+                field.stepUp()
+            elif isinstance(field, QComboBox):
+                field.setCurrentIndex((field.currentIndex() + 1) % field.count())
+            elif isinstance(field, QCheckBox):
+                field.toggle()
+            else:
+                field.textEdited.emit("words")
+            assert dialog._timer.isActive(), field
+        dialog.show_no_preview("A sentence.")
+        assert dialog.picture.text() == "A sentence." and not dialog.save_button.isEnabled()
+        dialog.close()
+        assert not dialog._timer.isActive()

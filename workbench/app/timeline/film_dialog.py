@@ -7,13 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QCloseEvent, QImage, QPixmap
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QImage, QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QDialog,
-    QDialogButtonBox,
     QDoubleSpinBox,
     QFormLayout,
     QHBoxLayout,
@@ -21,12 +19,11 @@ from PySide6.QtWidgets import (
     QProgressBar,
     QPushButton,
     QSpinBox,
-    QVBoxLayout,
     QWidget,
 )
 
 from workbench.app.composing.offers import Offer
-from workbench.app.composing.panel_table import PanelTable
+from workbench.app.composing.preview_dialog import PreviewDialog
 from workbench.app.new_file import ask_new_file
 from workbench.app.timeline.film_plan import PACES, PARTS, FilmPlan
 from workbench.figures.film import LEAST, MOST, RATES, Film
@@ -34,40 +31,22 @@ from workbench.figures.film_page import GROUNDS
 from workbench.figures.film_shading import Pixels
 
 FILTERS = "GIF (*.gif);;MP4 (*.mp4)"
-DELAY = 250
-"""Milliseconds after the last change until the picture is drawn anew."""
 PREVIEW = (520, 420)
 
 
-class FilmDialog(QDialog):
-    """`preview_wanted` a while after each change, `save_wanted` with a file, `cancel_wanted` while a film is made.
+class FilmDialog(PreviewDialog):
+    """`cancel_wanted` while a film is made.
 
     It does not stop the window, and goes on when it is closed while a film is being made.
     """
 
-    preview_wanted = Signal()
-    save_wanted = Signal(str)
     cancel_wanted = Signal()
 
     def __init__(self, offers: Sequence[Offer], is_dark: bool, is_marked: bool, place: Path, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setWindowTitle("Film")
+        super().__init__("Film", offers, PREVIEW, (360, 170), parent)
         self._place = place
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.setInterval(DELAY)
-        self._timer.timeout.connect(self.preview_wanted)
-        self.panels = PanelTable(offers, self)
-        self.panels.setMinimumSize(360, 170)
-        left = QVBoxLayout()
-        left.addWidget(self.panels, 1)
-        left.addLayout(self._make_form(is_dark, is_marked))
-        self.picture = QLabel("Drawing…", self)
-        self.picture.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.picture.setMinimumSize(PREVIEW[0] + 8, PREVIEW[1] + 8)
         self.picture.setFrameShape(QLabel.Shape.StyledPanel)
-        self.note = QLabel("", self)
-        self.note.setWordWrap(True)
+        self.save_button.setToolTip("GIF, or MP4 where there is ffmpeg")
         self.bar = QProgressBar(self)
         self.bar.setRange(0, 1000)
         self.cancel = QPushButton("Cancel", self)
@@ -77,19 +56,8 @@ class FilmDialog(QDialog):
         working = QHBoxLayout()
         working.addWidget(self.bar, 1)
         working.addWidget(self.cancel)
-        right = QVBoxLayout()
-        right.addWidget(self.picture, 1)
-        right.addWidget(self.note)
-        right.addLayout(working)
-        middle = QHBoxLayout()
-        middle.addLayout(left)
-        middle.addLayout(right, 1)
-        layout = QVBoxLayout(self)
-        layout.addLayout(middle, 1)
-        layout.addWidget(self._make_buttons())
+        self._lay_out(self._make_form(is_dark, is_marked), working)
         self.show_progress(-1.0)
-        self.panels.changed.connect(self.ask_preview)
-        self.ask_preview()
 
     def _make_form(self, is_dark: bool, is_marked: bool) -> QFormLayout:
         usual = Film(())
@@ -114,7 +82,7 @@ class FilmDialog(QDialog):
         self.ranges = self._list({"window": "Ranges of the window", "film": "Fitted to the film"})
         self.ranges.setToolTip("Either way a colour stands for one value in all frames")
         ticks = ("Captions", "Anchors", "Colour bars", "Repeat")
-        self.captions, self.anchors, self.bars, self.repeats = (QCheckBox(text, self) for text in ticks)
+        self.captions, self.anchors, self.bars, self.repeats = (self._tick(text) for text in ticks)
         self.repeats.setToolTip("A GIF begins anew at its end")
         form = QFormLayout()
         form.addRow("Part", self._row(self.part))
@@ -125,37 +93,8 @@ class FilmDialog(QDialog):
         form.addRow("Colours", self._row(self.ranges))
         form.addRow("Show", self._row(self.captions, self.anchors, self.bars))
         form.addRow("", self._row(self.repeats))
-        for tick in (self.captions, self.anchors, self.bars, self.repeats):
-            tick.setChecked(True)
-            tick.toggled.connect(self.ask_preview)
-        for box in (*self.sides, self.rate, self.speed):
-            box.valueChanged.connect(self.ask_preview)
-        for choice in (self.part, self.pace, self.ground, self.ranges):
-            choice.currentIndexChanged.connect(self.ask_preview)
         self.pace.currentIndexChanged.connect(lambda _: self.speed.setEnabled(self.pace.currentData() == "time"))
         return form
-
-    def _list(self, words: dict[str, str | None]) -> QComboBox:
-        box = QComboBox(self)
-        for id, text in words.items():
-            box.addItem(text or id.capitalize(), id)
-        return box
-
-    def _row(self, *parts: QWidget) -> QHBoxLayout:
-        row = QHBoxLayout()
-        for part in parts:
-            row.addWidget(part)
-        row.addStretch(1)
-        return row
-
-    def _make_buttons(self) -> QDialogButtonBox:
-        buttons = QDialogButtonBox(self)
-        self.save_button = buttons.addButton("Save…", QDialogButtonBox.ButtonRole.AcceptRole)
-        self.save_button.setToolTip("GIF, or MP4 where there is ffmpeg")
-        self.save_button.clicked.connect(self._ask_file)
-        buttons.addButton(QDialogButtonBox.StandardButton.Close)
-        buttons.rejected.connect(self.close)
-        return buttons
 
     # ------------------------------------------------------------------------------------------ choices
 
@@ -207,30 +146,14 @@ class FilmDialog(QDialog):
     def _lists(self) -> dict[str, QComboBox]:
         return {"pace": self.pace, "ground": self.ground, "ranges": self.ranges}
 
-    def ask_preview(self) -> None:
-        """Draw anew, once no more is changed."""
-        self._timer.start()
-
     # ------------------------------------------------------------------------------------------ results
 
     def show_preview(self, pixels: Pixels, sentence: str) -> None:
         """Show a frame, and how long the film is."""
         height, width = pixels.shape[:2]
-        ratio = self.devicePixelRatioF()
-        image = QImage(pixels.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)
-        room = (round(side * ratio) for side in PREVIEW)
-        smooth = Qt.TransformationMode.SmoothTransformation
-        picture = QPixmap.fromImage(image).scaled(*room, Qt.AspectRatioMode.KeepAspectRatio, smooth)
-        picture.setDevicePixelRatio(ratio)
-        self.picture.setPixmap(picture)
+        self._show(QPixmap.fromImage(QImage(pixels.tobytes(), width, height, 3 * width, QImage.Format.Format_RGB888)))
         self.note.setText(sentence)
         self.save_button.setEnabled(self.bar.isHidden())
-
-    def show_no_preview(self, sentence: str) -> None:
-        """Say why there is no film."""
-        self.picture.setText(sentence)
-        self.picture.setWordWrap(True)
-        self.save_button.setEnabled(False)
 
     def show_progress(self, share: float) -> None:
         """How much of the film is done; below 0 none is being made."""
@@ -240,12 +163,5 @@ class FilmDialog(QDialog):
         self.save_button.setEnabled(not is_working)
         self.bar.setValue(round(1000 * max(share, 0.0)))
 
-    def say(self, sentence: str) -> None:
-        self.note.setText(sentence)
-
     def _ask_file(self) -> None:
         ask_new_file(self, "Save the film", str(self._place), FILTERS, "gif", self.save_wanted.emit, overwrites=True)
-
-    def closeEvent(self, event: QCloseEvent) -> None:
-        self._timer.stop()
-        super().closeEvent(event)
