@@ -34,8 +34,6 @@ from workbench.engine.session_file import read_session, source_trouble, write_se
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
 
-LONG = 60_000
-
 
 def mesh_file(folder: Path) -> Path:
     """A file that the fake engine takes for its grid."""
@@ -45,7 +43,7 @@ def mesh_file(folder: Path) -> Path:
 
 
 def wait_for_desk(window: MainWindow, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: not window.sessions.desk.is_busy, timeout=LONG)
+    qtbot.waitUntil(lambda: not window.sessions.desk.is_busy)
 
 
 # ---------------------------------------------------------------------------------------------- undo
@@ -379,6 +377,11 @@ def test_a_session_that_the_engine_refuses_leaves_the_name_of_the_present_one(
     assert desk.path == str(path)
     window.bridge.refused.emit(Refused(document.generation, "TakeUp", "It does not suit.", serial=document.anchor_serial))
     assert desk.path == "" and window.error_bar.isVisible()
+    started = replace(read_session(path), session=Session(source=str(mesh_file(tmp_path)), initializer="lscm"), map=None)
+    desk.open(Found(str(path), started, ""))
+    qtbot.waitUntil(lambda: document.session.initializer == "lscm" and desk.path == str(path))
+    window.bridge.refused.emit(Refused(document.generation, "Reset", "It makes no start here."))
+    assert document.session.initializer == "" and window.isWindowModified(), "it is not as the file has it"
 
 
 @pytest.mark.parametrize("distortion", ["__import__('os').system('id')", "().__class__", "sigma.__class__", "no-such"])
@@ -405,14 +408,14 @@ def test_closing_asks_only_where_a_file_would_be_out_of_date(make_window: Window
     box = next(box for box in window.findChildren(QMessageBox) if box.isVisible())
     box.button(QMessageBox.StandardButton.Save).click()
     wait_for_desk(window, qtbot)
-    qtbot.waitUntil(lambda: not window.isVisible(), timeout=LONG)
+    qtbot.waitUntil(lambda: not window.isVisible())
     assert read_session(tmp_path / "mine.dwb").session.anchor_vertices == (5,)
 
 
 def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMaker, qtbot: QtBot, tmp_path: Path) -> None:
     window = make_window(engine_worker, source="sample:bar")
     document = window.document
-    qtbot.waitUntil(lambda: document.positions is not None and bool(len(document.anchors)), timeout=LONG)
+    qtbot.waitUntil(lambda: document.positions is not None and bool(len(document.anchors)))
 
     def rested() -> bool:
         snapshot, session = document.snapshot, document.session
@@ -420,16 +423,16 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
         return is_told and snapshot.phase == "finished" and snapshot.anchor_serial == document.anchor_serial
 
     document.run()
-    qtbot.waitUntil(rested, timeout=LONG)
+    qtbot.waitUntil(rested)
     hand, view = Hand(window.target.view), window.target.view
     begin = pixel_of(view, int(document.anchors.vertices[0]))
     hand.drag(begin, begin + QPoint(25, -30))
-    qtbot.waitUntil(rested, timeout=LONG)
+    qtbot.waitUntil(rested)
     pulled, last = document.anchors.vertices[1:2], int(document.anchors.vertices[-1])
     soft = document.anchors.weighted(pulled.tolist(), 2.0).moved(pulled, document.anchors.targets_of(pulled) + 0.2)
     document.set_anchors(soft.switched([last], on=False))
     qtbot.wait(300)
-    qtbot.waitUntil(rested, timeout=LONG)
+    qtbot.waitUntil(rested)
     for change in (
         {"distortion": "lam*symmetric_dirichlet + (1 - lam)*mips", "distortion_parameters": {"lam": 0.25}},
         {"solver": "l-bfgs"},
@@ -437,7 +440,7 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
     ):
         document.choose(**change)
         qtbot.wait(300)
-        qtbot.waitUntil(rested, timeout=LONG)
+        qtbot.waitUntil(rested)
     window.sessions.save_to(str(tmp_path / "s.dwb"))
     wait_for_desk(window, qtbot)
     record = read_session(tmp_path / "s.dwb")

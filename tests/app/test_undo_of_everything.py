@@ -16,8 +16,11 @@ from tests.app.loop_worker import LoopWorker
 from tests.conftest import grid
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
+from workbench.app.sessions.session_desk import Found, SessionDesk
 from workbench.app.sessions.undoing import Undoing
 from workbench.engine.messages import Refused
+from workbench.session.record import SessionRecord
+from workbench.session.session import Session
 
 CELLS = 4
 FORMULA = "lam*symmetric_dirichlet + (1 - lam)*mips"
@@ -249,3 +252,14 @@ def test_a_state_that_the_engine_refuses_leaves_all_as_it_was(bench: Bench) -> N
     bench.settle()
     assert bench.now == before and bench.refusals
     assert document.snapshot is not None and document.snapshot.anchor_serial == document.anchor_serial
+
+
+def test_a_session_that_the_engine_refuses_gives_its_name_to_nothing(bench: Bench, tmp_path: Path) -> None:
+    desk = SessionDesk(bench.document)
+    for source in bench.sources[:2]:  # the mesh that is open, and another one
+        session = Session(source=source, linear_equations=("x[999] = 0.0",))
+        positions = bench.document.positions if source == bench.sources[0] else None
+        desk.open(Found(str(tmp_path / "mine.dwb"), SessionRecord(session, map=positions), ""))
+        bench.settle()
+        assert bench.refusals.pop().command == "TakeUp" and desk.path == ""
+        assert bench.document.session.source == source and not bench.document.session.linear_equations

@@ -111,6 +111,20 @@ def test_only_what_differs_from_the_defaults_is_written(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "s.json").read_text()) == {**HEAD, "solver": "slim"}
 
 
+def test_a_way_too_long_to_be_read_is_left_out_and_the_map_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    count = 40
+    held = {"anchor_vertices": tuple(range(count)), "anchor_weights": (math.inf,) * count, "anchor_groups": (-1,) * count}
+    sessions = [Session(source="sample:bar", anchor_targets=((x, 0.0),) * count, **held) for x in (1.0, 2.0, 3.0)]
+    legs = tuple(Leg(session, "previous" if i else "start", None, 5) for i, session in enumerate(sessions))
+    record = SessionRecord(sessions[-1], map=np.ones((5, 2)), legs=legs, energy=4.0)
+    monkeypatch.setattr("workbench.session.text.MOST_PARTS", 4 * count)
+    monkeypatch.setattr(session_file, "MOST_PARTS", 4 * count)
+    write_session(tmp_path / "s.dwb", record)
+    found = read_session(tmp_path / "s.dwb")
+    assert found.session == record.session and not found.legs and found.energy == 4.0
+    np.testing.assert_array_equal(found.map, record.map)
+
+
 def test_the_mesh_is_named_relative_to_the_session_and_known_by_its_bytes(tmp_path: Path) -> None:
     mesh = tmp_path / "meshes" / "m.obj"
     mesh.parent.mkdir()
@@ -216,6 +230,8 @@ HOSTILE_TEXTS = {
     "infinite": json.dumps(HEAD)[:-1] + ', "tolerance": 1e999}',
     "a number without end": json.dumps(HEAD)[:-1] + ', "iterations": ' + "9" * 100_000 + "}",
     "deep": "[" * 200_000,
+    "a million anchors": json.dumps(HEAD)[:-1] + ', "anchors": [' + "[0,[0,0]]," * 1_000_000 + "[0,[0,0]]]}",
+    "a million objects": json.dumps(HEAD)[:-1] + ', "views": {"panes": [' + "{}," * 1_000_001 + "{}]}}",
     "twice": json.dumps(HEAD)[:-1] + ', "solver": "slim", "solver": "aqp"}',
     "binary": "\x00\x01\x02",
 }

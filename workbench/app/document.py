@@ -256,6 +256,8 @@ class Document(DocumentState):
         if positions.shape == start.shape and suits(session, start):
             self._take_up(replace(wanted, session=session, positions=positions))
             if wanted.positions is None:
+                none = replace(session, initializer="", initializer_parameters={}, start_file="")
+                self._earlier.keep(none, {"initializer": ""})  # what is there already, if that start is refused
                 self._make_start()
             return
         sentence = f"The session does not fit {session.source}: its map or its anchors are of another mesh, or of other fixes."

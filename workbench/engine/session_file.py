@@ -28,7 +28,7 @@ from workbench.io.png_content import content_of, is_png, with_content
 from workbench.io.read import read_bytes
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
-from workbench.session.text import parsed, plain_of, readable, record_of
+from workbench.session.text import MOST_PARTS, parsed, part_count, plain_of, readable, record_of
 
 ENDING = ".dwb"
 ENDINGS = (ENDING, ".json")
@@ -93,8 +93,13 @@ def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool
     if is_bare:
         legs = tuple(replace(leg, positions=None) for leg in record.legs)
         record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
-    plain, arrays = plain_of(replace(record, session=_with_paths(record.session, lambda name: relative_name(name, folder))))
-    text = utf8(readable(plain) + "\n")
+    record = replace(record, session=_with_paths(record.session, lambda name: relative_name(name, folder)))
+    plain, arrays = plain_of(record)
+    words = readable(plain) + "\n"
+    if record.legs and (len(words) > LARGEST_TEXT or part_count(words) > MOST_PARTS):  # nobody could read that again
+        plain, arrays = plain_of(replace(record, legs=()))
+        words = readable(plain) + "\n"
+    text = utf8(words)
     if is_bare:
         stream.write(text)
         return

@@ -10,6 +10,7 @@ from typing import Any, get_args
 
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
+from workbench.core.linear_equations import AXES
 from workbench.session import schema, view_schema
 from workbench.session.journal import LONGEST, Leg, Origin
 from workbench.session.record import SessionRecord
@@ -23,6 +24,8 @@ LEG_CHOICES = (
     "linear_equations", "tolerance",
 )  # fmt: skip
 """Choices in which a leg may differ from the session that it belongs to; its anchors may, too."""
+MOST_PARTS = 4 * schema.MOST_ANCHORS
+"""Lists and objects in a text: each costs time in which nothing else in the process goes on."""
 MAP = "map"
 """Name of the array of the map; legs that begin at a map have `leg-0`, `leg-1` and so on."""
 
@@ -102,6 +105,8 @@ def _leg_object(leg: Leg, session: Session, index: int, arrays: dict[str, Floats
 
 def parsed(text: str, format: str = FORMAT, newest: int = VERSION, noun: str = "session") -> dict[str, Any]:
     """The JSON object of a text that says it is of this format; `WorkbenchError` for anything else."""
+    if part_count(text) > MOST_PARTS:
+        raise WorkbenchError(f"It has more lists and objects than a {noun} may have ({MOST_PARTS}).")
     try:
         found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twins)
     except RecursionError:
@@ -118,6 +123,11 @@ def parsed(text: str, format: str = FORMAT, newest: int = VERSION, noun: str = "
     if version > newest:
         raise WorkbenchError(f"It was written by a newer program (version {version}, known is {newest}); update this one.")
     return found
+
+
+def part_count(text: str) -> int:
+    """Lists and objects in a JSON text, about: brackets in other text count, those of coordinates in equations do not."""
+    return text.count("[") + text.count("{") - sum(text.count(f"{axis}[") for axis in AXES)
 
 
 def _no_constant(name: str) -> Any:

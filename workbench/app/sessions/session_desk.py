@@ -181,6 +181,7 @@ class SessionDesk(QObject):
         document = self._document
         if self._pending is not None and not (document.is_restoring and document.session.source == self._pending.source):
             self._pending = None
+        self._left = ("", False) if self._pending is not None else None
         self._take_name()
 
     def _take_name(self) -> None:
@@ -194,6 +195,9 @@ class SessionDesk(QObject):
             self._take_name()
         elif report.command == "TakeUp" and self._left is not None:  # what was there before still is
             (self.path, self.is_modified), self._left = self._left, None
+            self.changed.emit()
+        elif report.command == "Reset" and self._left is not None:  # the session is there, though not with its start
+            self.is_modified, self._left = True, None
             self.changed.emit()
 
     def _modify(self, name: str, key: str) -> None:
