@@ -21,6 +21,7 @@ from workbench.engine.messages import (
     Loaded,
     MapReport,
     Pause,
+    Ready,
     Refused,
     Report,
     Reset,
@@ -219,6 +220,8 @@ class EngineWorker(ProcessOwner):
             with self._lock:
                 self._snapshot = None
             self._unread_rows = ()
+        elif isinstance(report, Ready):
+            import workbench.engine.live  # noqa: F401  what the first map needs, while the child reads its mesh
         elif isinstance(report, Refused) and report.command == "Load":
             self._loading = None
         elif isinstance(report, Refused) and report.kept is not None:
