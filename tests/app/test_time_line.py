@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PIL import Image
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
@@ -15,6 +16,7 @@ from tests.app.fake_engine import grid_mesh
 from workbench.app.anchor_set import AnchorSet
 from workbench.app.document import Document
 from workbench.app.main_window import MainWindow
+from workbench.app.timeline import player
 from workbench.app.timeline.comparison import compare
 from workbench.app.timeline.film_plan import frames_of
 from workbench.app.timeline.looking_back import Measurer
@@ -243,6 +245,46 @@ def test_it_is_played_to_its_end(line: TimeLine, qtbot: QtBot) -> None:
     line.player.speed = 1.0
 
 
+class Shown(QObject):
+    """Which moment is looked at, without views."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.index, self.is_live = 0, True
+
+    def show(self, index: int) -> None:
+        self.index, self.is_live = index, False
+
+
+@pytest.mark.parametrize("speed", [0.25, 1.0, 4.0])
+def test_it_is_played_as_quickly_as_it_is_wanted(qapp: object, speed: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    now, record, shown = [50.0], MomentRecord(), Shown()
+    for step in range(120):
+        record.add(np.zeros((3, 2)), np.zeros(1, bool), 0.1 * step)
+    monkeypatch.setattr(player, "time", SimpleNamespace(perf_counter=lambda: now[0]))
+    played = player.Player(record, shown)
+    played.speed = speed
+    played.toggle()
+    for _ in range(20):
+        now[0] += 0.1
+        played._beat()
+    assert record[shown.index].time == pytest.approx(2.0 * speed, abs=0.06)
+    now[0] += 3600.0  # the window was held up
+    played._beat()
+    assert record[shown.index].time < 2.5 * speed
+    played.stop()
+
+
+def test_a_map_that_is_told_again_is_kept_once(line: TimeLine, window: MainWindow, qtbot: QtBot) -> None:
+    document, count = window.document, len(line.recorder.record)
+    told: list[int] = []
+    document.snapshot_taken.connect(lambda: told.append(document.snapshot.number))
+    document.watch("test", (window.quantities["mips"],))
+    qtbot.waitUntil(lambda: bool(told))
+    document.watch("test")
+    assert len(line.recorder.record) == count
+
+
 def test_memory_is_chosen_for_good(line: TimeLine, window: MainWindow) -> None:
     line.set_memory(64)
     assert line.recorder.record.limit == 64 * 2**20
@@ -367,3 +409,13 @@ def test_a_film_is_made_beside_the_window(line: TimeLine, window: MainWindow, qt
     again.take_kept({"width": "wide", "height": -3, "rate": True, "ground": 7, "captions": "maybe", "speed": 1e9})
     assert again.plan.film.width == 200
     again.close()
+
+
+def test_the_time_line_fits_into_a_small_window(window: MainWindow) -> None:
+    """1280 pixels hold it between the panel of choices and a column of colour maps with the inspector."""
+    dock = window.time_line.dock
+    beside = window.panel_dock.minimumSizeHint().width() + window.inspector.minimumSizeHint().width()
+    assert dock.minimumSizeHint().width() + beside + 12 <= 1280
+    for name in ("past-go-on", "past-compare"):
+        action = window.actions_by_name[name]
+        assert len(action.iconText()) < len(action.text()) and action.toolTip()
