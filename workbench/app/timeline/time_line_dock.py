@@ -21,6 +21,9 @@ MEMORIES = (64, 256, 1024)
 REDRAW = 150
 """Milliseconds between two pictures of a time line that grows."""
 
+SHORT = {"past-go-on": "Go on", "past-compare": "Compare"}
+"""Words for buttons: with those of the menu a small window would have to grow."""
+
 
 class TimeLineDock(QDockWidget):
     """Shows the record, and says what the user wants of it.
@@ -92,6 +95,8 @@ class TimeLineDock(QDockWidget):
         row.addWidget(self.flip)
         for action in actions:
             button = QToolButton(body)
+            if action.objectName() in SHORT:
+                action.setIconText(SHORT[action.objectName()])  # what stands on a button
             button.setDefaultAction(action)
             row.addWidget(button)
         self._add_menu(row, body)
