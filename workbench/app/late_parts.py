@@ -10,6 +10,8 @@ from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 
 PATIENCE = 3000
 """Milliseconds that the parts wait for the first map."""
+FIRST = 120
+"""Milliseconds from the first map to the first piece: the map is to be seen before."""
 BETWEEN = 4
 """Milliseconds from one piece to the next, for the mouse and for what is to be drawn."""
 TYPES = 40
@@ -44,13 +46,13 @@ class LateParts(QObject):
 
     def stop(self) -> None:
         """The window ends."""
-        self._has_begun = True
+        self._pieces = iter(())
         self._timer.stop()
 
     def _begin(self) -> None:
         if not self._has_begun:
             self._has_begun = True
-            self._timer.start()
+            QTimer.singleShot(FIRST, self._timer, self._timer.start)
 
     def _go_on(self) -> None:
         if next(self._pieces, None) is None:

@@ -9,7 +9,6 @@ from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 
 from workbench.app.background import Background
 from workbench.core.errors import WorkbenchError
-from workbench.session.session import Session
 
 PATIENCE = 800
 """Milliseconds that the methods wait for the first map: both take the interpreter, and a map shows more than a list."""
@@ -59,8 +58,9 @@ def find_methods() -> Any:
     from workbench.core.registry import registry
 
     found = registry()
-    with suppress(WorkbenchError, KeyError):  # the first one that is shown: its kernel is loaded here
-        found.distortions[Session().distortion].compiled(2)
+    for item in found.distortions.values():
+        with suppress(WorkbenchError):  # what is to be known of them when they are listed is worked out here
+            item.compiled(2)
     return found
 
 
