@@ -13,10 +13,13 @@ from workbench.core.element_kernels import derivatives_2d, energy_2d
 from workbench.core.jacobians import Elements, determinants
 from workbench.core.mesh import Mesh
 from workbench.core.pattern import HessianPattern, build_pattern
+from workbench.core.predicates import orientation, orientation_3d
 from workbench.core.tape import Tape
 from workbench.core.tetrahedron_kernels import derivatives_3d, energy_3d
 from workbench.core.threads import over_ranges
 
+DOUBTFUL = 1e-8
+"""A determinant below may owe its sign to rounding."""
 EVERY: Floats = np.empty(0)
 """No list of simplices that keep their barrier: all do."""
 
@@ -100,7 +103,10 @@ class Energy:
             )  # fmt: skip
 
         results = over_ranges(work, len(e.simplices))
-        return float(sum(r[0] for r in results)), int(sum(r[1] for r in results))
+        energy, inverted = float(sum(r[0] for r in results)), int(sum(r[1] for r in results))
+        if not inverted and self.may_graze and (grazed := self._inverted_by_rounding(positions)):
+            return (float("inf") if barrier else energy), grazed
+        return energy, inverted
 
     def gradient(self, positions: Floats) -> Evaluation:
         """Energy and gradient. Not finite where a barrier distortion meets an inversion."""
@@ -147,7 +153,28 @@ class Energy:
                 values += other[3]
         if inverted and self.meets_barrier(positions):
             energy = float("inf")
+        if not inverted and self.may_graze and (inverted := self._inverted_by_rounding(positions)) and self.has_barrier:
+            energy = float("inf")
         return Evaluation(float(energy), int(inverted), gradient, values if order == 2 else None)
+
+    @cached_property
+    def may_graze(self) -> bool:
+        """Whether nothing but the step bound, or a fence that is as good as gone, keeps simplices off a collapse."""
+        faint = self.distortion.fence > 0.0 or not self.distortion.rises_to_barrier(self.elements.dimension)
+        return faint and not self.allow_inversions
+
+    def _inverted_by_rounding(self, positions: Floats) -> int:
+        """Simplices that are collapsed or inverted exactly, although their determinant comes out as a tiny positive number."""
+        e = self.elements
+        doubtful = np.flatnonzero(determinants(e, positions) < DOUBTFUL)
+        if not len(doubtful):
+            return 0
+        corners = positions[e.simplices[doubtful]].transpose(1, 0, 2)
+        rest = np.sign(
+            np.linalg.det(e.inverse_rest[doubtful] / np.abs(e.inverse_rest[doubtful]).max(axis=(1, 2), keepdims=True))
+        )
+        exact = orientation(*corners) if e.dimension == 2 else orientation_3d(*corners)
+        return int(np.count_nonzero(exact * rest <= 0))
 
     def meets_barrier(self, positions: Floats) -> bool:
         """Whether D is infinite because a simplex that keeps its barrier is inverted."""
