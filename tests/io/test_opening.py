@@ -40,6 +40,24 @@ def test_a_refusal_brings_the_report_and_survives_a_pipe(tmp_path: Path, dome: M
     assert opened.mesh.vertex_origin is not None
 
 
+def test_a_refusal_after_some_fixes_names_all_that_are_needed(tmp_path: Path) -> None:
+    """A one-sided band: cut open it is a disc whose triangles have yet to be turned; without the cut that does not help."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    sides = [(2.0 + w * np.cos(turn / 2)) for w in (-0.4, 0.4)]
+    band = [
+        np.column_stack([r * np.cos(turn), r * np.sin(turn), w * np.sin(turn / 2)])
+        for r, w in zip(sides, (-0.4, 0.4), strict=True)
+    ]
+    low, high = np.arange(12), np.arange(12, 24)
+    next_low, next_high = np.append(low[1:], 12), np.append(high[1:], 0)
+    triangles = np.vstack([np.column_stack([low, next_low, next_high]), np.column_stack([low, next_high, high])])
+    write_mesh(tmp_path / "band.obj", Mesh(np.vstack(band), triangles))
+    with pytest.raises(UnsuitableSourceError, match=r"apply --fix cut,reorient\.") as refusal:
+        open_source(str(tmp_path / "band.obj"), fixes=("cut",))
+    assert refusal.value.fixes == ("reorient",)
+    assert open_source(str(tmp_path / "band.obj"), fixes=("cut", "reorient")).mesh.topology.is_disc
+
+
 def test_cut_edges_lie_on_the_boundary(data_folder: Path) -> None:
     opened = open_source(str(data_folder / "OptCuts/robustness/torus.obj"), fixes=("cut",))
     boundary = set(map(tuple, opened.mesh.topology.boundary_facets.tolist()))

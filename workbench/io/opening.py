@@ -89,6 +89,8 @@ def open_source(source: str, *, kind: str = "auto", fixes: Sequence[str] = (), t
         sentence, helpful = error.sentence, error.fixes
         if "tets" not in reading and not tets and looks_like_tetrahedra(file):
             sentence, helpful = TETRAHEDRA_IN_DISGUISE, ("tets",)
+        if fixes:  # those that were asked for stay, or what they mended would be in the way again
+            sentence = sentence.replace("--fix ", f"--fix {','.join(fixes)},")
         raise _rebuild_unsuitable(f"{source}: {sentence}", helpful, lines) from None
     mesh = source_for_kind(fixed.mesh, resolved)
     start, anchors, targets, note = _given_map(file, mesh, resolved)
