@@ -20,6 +20,7 @@ from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.docks.convergence_dock import ConvergenceDock
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.histogram_dock import HistogramDock
+from workbench.app.docks.tab_bars import TabBars
 from workbench.app.document import Document
 from workbench.app.drawing.drawing_desk import DrawingDesk
 from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
@@ -215,6 +216,7 @@ class MainWindow(QMainWindow):
         self.faults = FaultDesk(self)
         self.help = HelpDesk(self)
         self.docks.append(self.noticing.dock)
+        self.tab_bars = TabBars(self)
 
     def _make_status(self) -> None:
         self.status = StatusLine(self)
