@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -214,3 +215,12 @@ def test_it_stays_inside_a_small_window(window: MainWindow, palette: Palette) ->
     assert window.rect().contains(palette.geometry())
     window.resize(size)
     QTest.keyClick(palette.line, Qt.Key.Key_Escape)
+
+
+def test_what_can_be_used_comes_before_what_cannot() -> None:
+    """Enter does the first of them; what is grey is still found, with its reason."""
+    grey = Entry("More glyphs", ("View", "Glyphs"), lambda: None, is_enabled=False, reason="no glyphs are drawn")
+    usable = Entry("Ellipses", ("View", "Glyphs"), lambda: None)
+    assert [one.entry for one in search([grey, usable], "glyph")] == [usable, grey]
+    assert next(one.entry for one in search([usable, replace(grey, is_enabled=True)], "glyph")).title == "More glyphs"
+    assert [one.entry for one in search([usable, grey], "more gl")] == [grey]

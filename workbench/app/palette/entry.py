@@ -12,6 +12,8 @@ RECENT = 10.0
 """What the entry that was used last is worth beside what fits it; those before it less and less."""
 BEHIND, OTHERWISE = 0.4, 0.8
 """What letters in the path, and in other words for it, are worth against those in the title."""
+GREY = 0.35
+"""What a fit is worth where the entry cannot be used now: less than one that fits by its path alone, and can."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +74,8 @@ def search(entries: Sequence[Entry], typed: str, recent: Iterable[str] = ()) -> 
         one = _fit_all(entry, typed, words)
         if one is not None:
             bonus = 0.0 if rank is None else RECENT / (1.0 + 0.25 * rank)
-            found.append(Found(entry, one.score + bonus + entry.lift, one.places))
+            score = one.score + bonus + entry.lift
+            found.append(Found(entry, score if entry.is_enabled or score < 0 else GREY * score, one.places))
     found.sort(key=lambda one: -one.score)
     return found
 
