@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QDockWidget, QWidget
+from PySide6.QtWidgets import QApplication, QDockWidget, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
@@ -112,6 +112,13 @@ def test_singular_values_are_asked_for_by_the_plane_alone(inspector: InspectorDo
     qtbot.waitUntil(lambda: not has_values())
 
 
+def bars_to_be_seen(window: MainWindow) -> list[list[str]]:
+    """The words on each bar of tabs that lies over the window."""
+    bars = window.findChildren(QTabBar, options=Qt.FindChildOption.FindDirectChildrenOnly)
+    seen = [bar for bar in bars if bar.isVisible() and bar.geometry().intersects(window.rect())]
+    return [[bar.tabText(tab) for tab in range(bar.count())] for bar in seen]
+
+
 def test_it_makes_room_and_gives_it_back(window: MainWindow, qtbot: QtBot) -> None:
     def stacked(docks: list[QDockWidget]) -> bool:
         return not any(window.tabifiedDockWidgets(dock) for dock in docks) and all(d.isVisible() for d in docks)
@@ -126,10 +133,12 @@ def test_it_makes_room_and_gives_it_back(window: MainWindow, qtbot: QtBot) -> No
     assert window.inspector.height() > 0.4 * window.height()
     assert window.target.view.width() > 0.7 * width
     assert window.size() == size, "the window does not grow"
+    qtbot.waitUntil(lambda: bars_to_be_seen(window) == [[dock.windowTitle() for dock in maps]])
     QTest.keyClick(window, Qt.Key.Key_I, Qt.KeyboardModifier.ControlModifier)
     qtbot.waitUntil(lambda: not window.inspector.isVisible())
     qtbot.waitUntil(lambda: stacked(maps))
     qtbot.waitUntil(lambda: abs(window.target.view.width() - width) <= 4)
+    qtbot.waitUntil(lambda: not bars_to_be_seen(window))
 
 
 def test_it_floats_and_comes_back_into_the_same_window(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
