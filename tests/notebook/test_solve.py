@@ -128,11 +128,23 @@ def test_progress_is_one_line_and_only_for_people(square_file: Path, capsys, mon
         ({"solver": "no-such-solver"}, "no-such-solver"),
         ({"parameters": {"speed": 1}}, "speed"),
         ({"distortion": "sum(sigma"}, "."),
+        ({"iterations": "many"}, "iterations is 'many'"),
+        ({"iterations": -1}, "from 0 on"),
+        ({"tolerance": float("nan")}, "tolerance is nan"),
+        ({"time_limit": "1 h"}, "time_limit is '1 h'"),
     ],
 )
 def test_what_does_not_fit_is_refused_with_a_sentence(square_file: Path, wishes: dict, words: str) -> None:
     with pytest.raises(WorkbenchError, match=words):
         solve(square_file, progress=False, **wishes)
+
+
+@pytest.mark.parametrize(
+    "given", [np.zeros((3, 2)), (np.zeros((3, 2)), [[0, 1, 2]]), None, 7], ids=lambda given: type(given).__name__
+)
+def test_what_is_no_mesh_is_refused_with_a_sentence(given: object) -> None:
+    with pytest.raises(WorkbenchError, match=r"Mesh\(vertices, simplices\)"):
+        solve(given)
 
 
 def test_sentences_name_arguments_not_options(square_file: Path) -> None:

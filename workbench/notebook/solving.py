@@ -7,11 +7,13 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
+from numbers import Integral, Real
 from typing import Any
 
 from numpy.typing import ArrayLike
 
 from workbench.core.distortion import Distortion
+from workbench.core.errors import WorkbenchError
 from workbench.core.linear_equations import read_equations
 from workbench.core.mesh import Mesh
 from workbench.core.problem import Criteria, Problem
@@ -79,6 +81,7 @@ def solve(
     Ctrl+C, or the notebook's stop button, ends it with the last map. How it ended is the `status` of the result, and no
     exception. Raises `WorkbenchError` for what does not fit: what is wrong and what to do.
     """
+    _check_limits(iterations, tolerance=tolerance, gradient_tolerance=gradient_tolerance, time_limit=time_limit)
     problem = what if isinstance(what, Problem) else None
     source = source_of_problem(problem) if problem is not None else source_of(what, kind, fixes)  # type: ignore[arg-type]
     earlier = init if isinstance(init, Solution) else None
@@ -115,6 +118,15 @@ def solve(
                 on_row=on_row,
             )
     return Solution(prepared, result, fault)
+
+
+def _check_limits(iterations: int, **amounts: float | None) -> None:
+    """Raises `WorkbenchError` for what is no number of iterations, tolerance or time."""
+    if not isinstance(iterations, Integral) or iterations < 0:
+        raise WorkbenchError(f"iterations is {iterations!r}; it has to be a whole number from 0 on.")
+    for name, amount in amounts.items():
+        if amount is not None and not (isinstance(amount, Real) and amount >= 0):
+            raise WorkbenchError(f"{name} is {amount!r}; it has to be a number from 0 on.")
 
 
 def _equations(given: str | os.PathLike[str] | Sequence[str] | None) -> str | Sequence[str]:

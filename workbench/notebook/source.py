@@ -140,6 +140,10 @@ def load(path: str | os.PathLike[str], *, kind: str = "auto", fixes: Sequence[st
 
     Raises `MeshError` for what cannot be used, with the fixes that would help.
     """
+    if not isinstance(path, str | os.PathLike):
+        raise MeshError(
+            f"{type(path).__name__} is no mesh; give a file, sample:ID, Mesh(vertices, simplices), or what load() returned."
+        )
     if isinstance(fixes, str):
         fixes = tuple(name.strip() for name in fixes.split(",") if name.strip())
     return Source(open_source(os.fspath(path), kind=kind, fixes=fixes, tets=tets))
