@@ -17,6 +17,7 @@ from workbench.app.composing.figure_work import NAME, Order, Subject, draw_previ
 from workbench.app.composing.offers import Offer, offers_of, subject_of
 from workbench.app.main_window import MainWindow
 from workbench.app.timeline.film_dialog import FilmDialog
+from workbench.app.views.solid_texture import CELLS, OFFSET
 from workbench.app.views.textures import pattern_image
 from workbench.core.errors import WorkbenchError
 from workbench.core.run import HistoryRow
@@ -188,3 +189,25 @@ def test_every_choice_of_both_dialogs_asks_for_a_preview(qtbot: QtBot, qapp: QAp
         assert dialog.picture.text() == "A sentence." and not dialog.save_button.isEnabled()
         dialog.close()
         assert not dialog._timer.isActive()
+
+
+def test_patterns_through_solids_lie_on_paper_as_they_do_in_the_views(solid_window: MainWindow, tmp_path: Path) -> None:
+    window = solid_window
+    Image.new("RGB", (20, 10), "red").save(tmp_path / "flag.png")
+    window.texturing.take_picture(str(tmp_path / "flag.png"))
+    window.texturing.choose(size=0.7, degrees=25.0)
+    try:
+        for pattern in ("checkerboard", "grid", "circles", "stripes", "picture"):
+            window.colouring.set_style(window.target, pattern)
+            subject = subject_of(window)
+            assert subject is not None
+            scene = scene_of(subject.map, offers_of(window)[1].panel)
+            texture = window.texturing.texture(pattern)  # type: ignore[arg-type]
+            points = texture.points() if texture.points else None
+            assert points is not None
+            there = texture.coordinates(points)
+            if pattern != "picture":
+                there = CELLS[pattern] * texture.coordinates_in_space(points) + OFFSET
+            np.testing.assert_allclose(texture_places(scene), there, atol=1e-3)
+    finally:
+        window.texturing.choose(size=1.0, degrees=0.0)
