@@ -135,11 +135,12 @@ def show_inspector(window: MainWindow, path: Path) -> None:
     pages = []
     with tempfile.TemporaryDirectory() as folder:
         for number in range(3):
-            inspector.tabs.setCurrentIndex(number)
+            inspector.body.tabs.setCurrentIndex(number)
             rest(4000)
             until(
                 lambda: (
-                    "Looking" not in inspector.formula.badges.detail.text() and inspector.formula.picture.drawing is not None
+                    "Looking" not in inspector.body.formula.badges.detail.text()
+                    and inspector.body.formula.picture.drawing is not None
                 )
             )
             file = Path(folder) / f"{number}.png"
