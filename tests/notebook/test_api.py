@@ -20,6 +20,7 @@ def test_a_solid_is_opened_solved_measured_and_written(tmp_path: Path, cube: Mes
     problem = api.Problem.create(opened.mesh, "volume", api.Distortion.resolve("arap-barrier"), api.Anchors(held, targets))
     result = api.run(api.solver("slim", safety=0.9), problem, opened.mesh.vertices, iterations=50)
     positions = result.state.positions
+    assert result.state.status.name in repr(result) and len(repr(result)) < 200, "a notebook shows it as a line"
     np.testing.assert_allclose(positions[held], targets, atol=1e-9)
     measured = api.measure_map(opened.mesh, positions)
     assert measured["inverted"] == 0

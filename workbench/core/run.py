@@ -23,7 +23,7 @@ class Limits:
     seconds: float = float("inf")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RunResult:
     """`state.status` says how it ended; `seconds` has total, setup, assemble, factorise, solve, line_search."""
 
@@ -31,6 +31,11 @@ class RunResult:
     initial: State
     rows: tuple[HistoryRow, ...]
     seconds: dict[str, float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        state = self.state
+        how = f"{state.status.name}, iteration {state.iteration}, energy {state.energy:.10g}, {state.inverted} inverted"
+        return f"<RunResult {how}, anchors off by {state.anchor_error:.3g} at most>"
 
 
 def history_row(problem: Problem, state: State, seconds: float) -> HistoryRow:
