@@ -141,6 +141,8 @@ def test_forms_report_what_differs_from_the_defaults(qtbot: QtBot) -> None:
         )
     )
     safety = form.fields["safety"]
+    assert safety.toolTip() == "share of the largest step (at least 0.1, at most 1)"
+    assert form.fields["count"].toolTip() == "count"
     with qtbot.waitSignal(form.changed) as caught:
         safety.setText("0.5")
         safety.editingFinished.emit()

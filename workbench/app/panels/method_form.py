@@ -8,6 +8,7 @@ from typing import Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QCheckBox, QComboBox, QFormLayout, QLabel, QLineEdit, QSizePolicy, QSpinBox, QWidget
 
+from workbench.app.panels.parameter_row import bounds_of
 from workbench.core.errors import WorkbenchError
 from workbench.core.method import Parameter
 
@@ -99,7 +100,4 @@ class MethodForm(QWidget):
 
 
 def _tip(item: Parameter) -> str:
-    low = "" if item.minimum is None else f" at least {item.minimum:g}"
-    high = "" if item.maximum is None else f" at most {item.maximum:g}"
-    bounds = f" ({(low + high).strip()})" if low or high else ""
-    return f"{item.description or item.name}{bounds}"
+    return f"{item.description or item.name}{bounds_of(item)}"

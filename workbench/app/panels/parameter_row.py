@@ -164,8 +164,11 @@ class ParameterRow(QWidget):
 
 
 def _tip(item: Parameter, is_bound: bool) -> str:
-    bounds = []
-    if is_bound:
-        bounds += [f"at least {item.minimum:g}"] if item.minimum is not None else []
-        bounds += [f"at most {item.maximum:g}"] if item.maximum is not None else []
-    return f"{item.name}: {item.description or 'parameter'}" + (f" ({', '.join(bounds)})" if bounds else "")
+    return f"{item.name}: {item.description or 'parameter'}{bounds_of(item) if is_bound else ''}"
+
+
+def bounds_of(item: Parameter) -> str:
+    """Between which values a parameter lies, in brackets behind what it is; empty where it has no bounds."""
+    ends = (("at least", item.minimum), ("at most", item.maximum))
+    bounds = [f"{words} {end:g}" for words, end in ends if end is not None]
+    return f" ({', '.join(bounds)})" if bounds else ""
