@@ -7,6 +7,7 @@ from collections.abc import Callable
 from itertools import permutations
 
 import numpy as np
+from PySide6.QtCore import QCoreApplication
 
 from workbench.core.mesh import Mesh
 from workbench.core.status import Status
@@ -64,6 +65,14 @@ def solid_mesh(cells: tuple[int, int, int] = (6, 3, 3)) -> Mesh:
         is_even = np.linalg.det(steps[1:]) > 0
         tets.append(np.stack(tet if is_even else [tet[0], tet[2], tet[1], tet[3]], axis=1))
     return Mesh(np.c_[x.ravel(), y.ravel(), z.ravel()] / 3.0, np.concatenate(tets), name="solid")
+
+
+def let_reports_arrive() -> None:
+    """What a worker has told comes to the document; it is taken at most once in 12 ms."""
+    for _ in range(2):
+        QCoreApplication.processEvents()
+        time.sleep(0.013)
+    QCoreApplication.processEvents()
 
 
 class FakeWorker:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import itertools
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QCoreApplication
 
-from tests.app.fake_engine import FakeWorker, grid_mesh
+from tests.app.fake_engine import FakeWorker, grid_mesh, let_reports_arrive
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.first_start import start_in_force
@@ -33,14 +31,7 @@ class Room:
         self.document = Document(self.bridge)
         self.undoing = Undoing(self.document)
         self.document.open(source)
-        self.settle()
-
-    def settle(self) -> None:
-        """Let reports arrive; they are taken at most once in 12 ms."""
-        for _ in range(2):
-            QCoreApplication.processEvents()
-            time.sleep(0.013)
-        QCoreApplication.processEvents()
+        let_reports_arrive()
 
     def sent(self, kind: type) -> list[object]:
         return [command for command in self.bridge._worker.commands if isinstance(command, kind)]  # type: ignore[attr-defined]
@@ -78,7 +69,7 @@ def test_a_solver_that_is_taken_back_or_refused_leaves_no_trace_at_the_start(roo
     room.document.choose(solver="slim")
     assert room.undoing.history.names == (registry().solvers["slim"].label,)
     room.undoing.undo()
-    room.settle()
+    let_reports_arrive()
     assert room.document.session == before
     room.document.choose(solver="slim")
     room.bridge.refused.emit(Refused(room.document.generation, "SetSolver", "It does not minimise this."))

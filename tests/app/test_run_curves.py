@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from PySide6.QtCore import QCoreApplication
 
+from tests.app.fake_engine import let_reports_arrive
 from tests.app.loop_worker import LoopWorker
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
@@ -33,17 +32,10 @@ class Room:
         self.curves = RunCurves(self.document, self.history, self.switches)
         self.undoing.curves = self.curves.kept
         self.document.open("sample:bar")
-        self.settle()
+        let_reports_arrive()
         free = self.document.anchors
         self.document.set_anchors(free.with_target(60, self.document.positions[60] + [0.3, 0.4]))
-        self.settle()
-
-    def settle(self) -> None:
-        """Let reports arrive; they are taken at most once in 12 ms."""
-        for _ in range(2):
-            QCoreApplication.processEvents()
-            time.sleep(0.013)
-        QCoreApplication.processEvents()
+        let_reports_arrive()
 
     @property
     def rows(self) -> list[tuple[float, ...]]:
@@ -60,7 +52,7 @@ class Room:
 
     def end(self) -> None:
         self.undoing.wait()
-        self.settle()
+        let_reports_arrive()
         self.document.deleteLater()
 
 
@@ -99,30 +91,30 @@ def test_every_moment_has_its_curves_again(qapp: object, deeds: list, visits: li
     moments = {history.done: room.now}
     for deed, value in deeds:
         deed(room, value)
-        room.settle()
+        let_reports_arrive()
         moments[history.done] = room.now
     for visit in (*visits, max(moments)):
         place = min(moments, key=lambda done: (abs(done - visit), done))
         room.undoing.go_to(place)
-        room.settle()
+        let_reports_arrive()
         assert room.now == moments[place]
     room.end()
 
 
 def test_a_run_goes_on_where_the_curves_end(room: Room) -> None:
     step(room, 5)
-    room.settle()
+    let_reports_arrive()
     step(room, 3)
-    room.settle()
+    let_reports_arrive()
     iterations = room.history.column("iteration").tolist()
     assert max(iterations) == 10 and room.undoing.history.names[-2:] == ("Step", "Step")
     room.undoing.undo()
-    room.settle()
+    let_reports_arrive()
     assert room.history.column("iteration")[-1] == 6
     before = room.rows
     room.document.choose(solver="slim")
     room.steps(2)
-    room.settle()
+    let_reports_arrive()
     assert room.rows[: len(before)] == before
     assert np.unique(room.history.column("iteration")[len(before) - 1 :]).tolist() == [6, 7, 8]
     assert (np.diff(room.history.column("seconds")) >= 0).all(), "on one clock"
@@ -135,13 +127,13 @@ def test_what_was_under_way_does_not_come_into_the_curves(room: Room) -> None:
     step(room, 4)
     room.undoing.undo()
     assert room.now == before, "at once, before the engine has answered"
-    room.settle()
+    let_reports_arrive()
     assert room.now == before
     room.undoing.redo()
-    room.settle()
+    let_reports_arrive()
     step(room, 2)
     room.document.reset()
-    room.settle()
+    let_reports_arrive()
     assert room.history.column("iteration").max() == 0, "a start made anew begins with its own rows"
 
 
@@ -150,34 +142,34 @@ def test_another_start_leaves_no_row_of_the_one_before(room: Room) -> None:
     steps = (room.document.reset, lambda: room.document.choose(initializer="harmonic"), room.document.reset)
     for make in steps:
         make()
-    room.settle()
+    let_reports_arrive()
     assert room.history.column("iteration").tolist() == [0.0]
     assert room.history.column("energy")[0] == room.document.snapshot.row.energy  # type: ignore[union-attr]
 
 
 def test_going_to_and_fro_at_once_loses_no_map(room: Room) -> None:
     step(room, 4)
-    room.settle()
+    let_reports_arrive()
     end = room.now
     room.undoing.undo()
-    room.settle()
+    let_reports_arrive()
     room.undoing.redo()
     room.undoing.undo()  # before the newest map has come
     room.undoing.redo()
-    room.settle()
+    let_reports_arrive()
     assert room.now == end
 
 
 def test_a_moment_that_is_refused_hides_no_map(room: Room) -> None:
     step(room, 1)
-    room.settle()
+    let_reports_arrive()
     room.undoing.undo()
     serial = room.document.anchor_serial
     room.bridge.refused.emit(Refused(room.document.generation, "TakeUp", "It does not suit.", serial=serial))
-    room.settle()
+    let_reports_arrive()
     assert room.document._taken_up is None
     room.steps(2)
-    room.settle()
+    let_reports_arrive()
     assert room.history.column("iteration").max() >= 2
 
 
