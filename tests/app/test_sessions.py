@@ -13,8 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from PySide6.QtCore import QCoreApplication, QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMessageBox, QPushButton
@@ -94,72 +92,6 @@ def drag(desk: Desk, value: int) -> None:
         target = np.array(document.anchors.targets[vertex])
         for step in range(1, 4):
             document.move_anchor(vertex, target + 0.01 * step * (value + 1), dragging=step < 3)
-
-
-def weigh(desk: Desk, value: int) -> None:
-    anchors = desk.document.anchors
-    desk.document.set_anchors(anchors.weighted(anchors.vertices[:1].tolist(), (0.5, 2.0, np.inf)[value % 3]))
-
-
-def switch(desk: Desk, value: int) -> None:
-    anchors = desk.document.anchors
-    desk.document.set_anchors(anchors.switched(anchors.vertices[:2].tolist(), on=bool(value % 2)))
-
-
-def let_go(desk: Desk, value: int) -> None:
-    if len(desk.document.anchors):
-        desk.document.remove_anchor(int(desk.document.anchors.vertices[0]))
-
-
-def choose(desk: Desk, value: int) -> None:
-    desk.document.choose(distortion=("mips", "arap", "dirichlet")[value % 3], distortion_parameters={})
-
-
-def choose_solver(desk: Desk, value: int) -> None:
-    desk.document.choose(solver=("slim", "aqp")[value % 2], solver_parameters={})
-
-
-def run(desk: Desk, value: int) -> None:
-    desk.document.toggle()
-
-
-def reset(desk: Desk, value: int) -> None:
-    desk.document.reset()
-
-
-def undo(desk: Desk, value: int) -> None:
-    desk.undoing.undo()
-
-
-def redo(desk: Desk, value: int) -> None:
-    desk.undoing.redo()
-
-
-KINDS = (anchor, drag, weigh, switch, let_go, choose, choose_solver, run, reset, undo, redo)
-DEEDS = st.tuples(st.sampled_from(KINDS), st.integers(0, 9))
-
-
-@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(st.lists(DEEDS, min_size=3, max_size=10))
-def test_undo_all_and_redo_all_brings_back_the_same_session_and_map(qapp: object, deeds: list) -> None:
-    desk = Desk()
-    beginning = desk.now
-    for deed, value in deeds:
-        deed(desk, value)
-        desk.settle()
-    history = desk.undoing.history
-    desk.undoing.go_to(len(history.names))
-    desk.settle()
-    end = desk.now
-    while history.undo_name:
-        desk.undoing.undo()
-        desk.settle()
-    assert desk.now == beginning
-    while history.redo_name:
-        desk.undoing.redo()
-        desk.settle()
-    assert desk.now == end
-    desk.end()
 
 
 def test_a_drag_is_one_step_and_one_that_is_taken_back_is_none(desk: Desk) -> None:
