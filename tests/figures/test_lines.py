@@ -151,3 +151,12 @@ def test_figures_have_their_lines_as_vectors(seamed: Mesh) -> None:
     assert paths_in(wires, "wires") == seamed.simplex_count
     assert not paths_in(wires, "triangles")
     assert figure_of(seamed, textured) == svg
+
+
+def test_too_many_lines_are_a_picture(seamed: Mesh, monkeypatch: pytest.MonkeyPatch) -> None:
+    textured = Panel("map", colour=CHEQUERED, caption=" ", edges=True, anchors=False)
+    assert paths_in(figure_of(seamed, textured), "edges") > 50
+    monkeypatch.setattr("workbench.figures.line_panel.MOST_LINES", 50)
+    svg = figure_of(seamed, textured)
+    assert paths_in(svg, "edges") == 0
+    assert svg.count("<image") == 2

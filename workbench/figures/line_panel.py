@@ -26,6 +26,8 @@ FEATURE = 1.0
 PIECE = 4.0
 """Pixels of a piece of a line in space, which is seen or is not."""
 MOST_PIECES = 4_000_000
+MOST_LINES = 60_000
+"""Lines of a kind that are vectors; more of them are a picture, as what they lie on."""
 TOLERANCE = 0.01
 """How far a line may lie behind what is seen there, as a part of what the panel shows."""
 
@@ -69,10 +71,9 @@ def _draw(axes: Axes, scene: Scene, frame: Frame, edges: Integers, colour: objec
 
     lines = scene.points[edges] if scene.is_flat else _seen(scene, frame, edges)
     if len(lines):
-        axes.add_collection(
-            LineCollection(list(lines[..., :2]), colors=colour, linewidths=width, capstyle="round", zorder=3, gid=name),
-            autolim=False,
-        )
+        drawn = LineCollection(list(lines[..., :2]), colors=colour, linewidths=width, capstyle="round", zorder=3, gid=name)
+        drawn.set_rasterized(len(lines) > MOST_LINES)
+        axes.add_collection(drawn, autolim=False)
 
 
 def _seen(scene: Scene, frame: Frame, edges: Integers) -> Floats:
