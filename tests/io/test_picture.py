@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from workbench.core.errors import WorkbenchError
 from workbench.io.picture import KEPT_SIDE, read_picture
 
 RAMP = np.dstack(np.meshgrid(np.arange(0, 200, 10), np.arange(0, 240, 20))).astype(np.uint8)
@@ -44,3 +46,12 @@ def test_large_ones_are_made_smaller_in_shape(tmp_path: Path) -> None:
     Image.new("RGB", (3 * KEPT_SIDE, KEPT_SIDE), "red").save(tmp_path / "large.jpg")
     found = read_picture(str(tmp_path / "large.jpg"))
     assert found.shape[1] == KEPT_SIDE and found.shape[0] == pytest.approx(KEPT_SIDE / 3, abs=1)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="there are no pipes among files")
+def test_what_is_no_file_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.png")
+    (tmp_path / "folder.png").mkdir()
+    for name in ("pipe.png", "folder.png"):
+        with pytest.raises(WorkbenchError, match="ordinary"):
+            read_picture(str(tmp_path / name))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 import warnings
 from pathlib import Path
 
@@ -34,11 +35,13 @@ def read_picture(path: str) -> NDArray[np.uint8]:
     from PIL import Image, ImageOps, UnidentifiedImageError
 
     try:
-        size = Path(path).stat().st_size
+        status = Path(path).stat()
     except (OSError, ValueError) as error:
         raise WorkbenchError(f"{path}: {getattr(error, 'strerror', '') or error}; choose another picture.") from None
-    if size > LARGEST_FILE:
-        raise WorkbenchError(f"{path} has {size >> 20} MB, and {LARGEST_FILE >> 20} MB are the most; make the picture smaller.")
+    if not stat.S_ISREG(status.st_mode):
+        raise WorkbenchError(f"{path} is not an ordinary file; choose a picture.")
+    if status.st_size > LARGEST_FILE:
+        raise WorkbenchError(f"{path} has {status.st_size >> 20} MB, and {LARGEST_FILE >> 20} MB are the most; make the picture smaller.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # there are bounds of our own below
