@@ -41,7 +41,8 @@ def read_picture(path: str) -> NDArray[np.uint8]:
     if not stat.S_ISREG(status.st_mode):
         raise WorkbenchError(f"{path} is not an ordinary file; choose a picture.")
     if status.st_size > LARGEST_FILE:
-        raise WorkbenchError(f"{path} has {status.st_size >> 20} MB, and {LARGEST_FILE >> 20} MB are the most; make the picture smaller.")
+        megabytes, most = status.st_size >> 20, LARGEST_FILE >> 20
+        raise WorkbenchError(f"{path} has {megabytes} MB, and {most} MB are the most; make the picture smaller.")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)  # there are bounds of our own below
