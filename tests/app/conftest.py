@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import gc
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -57,7 +58,7 @@ CHOICES = ("distortion", "distortion_parameters", "solver", "fixed_boundary", "a
 """Fields of the session that a test may change."""
 
 
-PATIENCE = 60_000
+PATIENCE = 200_000
 """Milliseconds: whatever comes first on a machine waits for kernels that are compiled once."""
 
 
@@ -68,6 +69,20 @@ def no_clock_runs_out() -> Iterator[None]:
         patch.setattr("workbench.app.handling.anchor_desk.PATIENCE", 60.0)
         patch.setattr("workbench.app.sessions.undoing.PAUSE", 60.0)
         yield
+
+
+CALM = 6
+"""Looks at a window in a row, between which nothing has changed its size: it will keep it."""
+
+
+def pause(milliseconds: float) -> None:
+    """Let the window go on, and threads beside it, from whom `QTest.qWait` would keep the interpreter."""
+    until = time.monotonic() + 1e-3 * milliseconds
+    while True:
+        QApplication.processEvents()
+        if time.monotonic() >= until:
+            return
+        time.sleep(0.002)
 
 
 @pytest.fixture
@@ -131,12 +146,13 @@ def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) ->
     """One window for the tests of a module: making one takes a second without a graphics card."""
     window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
     window.bridge.start()
+    window._finder._begin()  # it would wait for a map
     while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
-        QTest.qWait(20)
-    before = None
-    while before != window.target.view.size():  # the panel takes its new width when there is time
-        before = window.target.view.size()
-        QTest.qWait(300)
+        pause(5)
+    sizes = [window.target.view.size()]
+    while len(sizes) < CALM or any(size != sizes[-1] for size in sizes[-CALM:]):  # it takes the new one when there is time
+        pause(25)
+        sizes.append(window.target.view.size())
     yield window
     end_window(window)
 
@@ -158,7 +174,7 @@ def window(kept_window: MainWindow, qtbot: QtBot) -> MainWindow:
     kept_window.open("grid")
     qtbot.waitUntil(lambda: kept_window.document.positions is not None and not kept_window.document.opening_source)
     qtbot.waitUntil(lambda: kept_window.target.view.geometry_shown is not None)
-    QTest.qWait(30)
+    pause(30)
     kept_window.error_bar.dismiss()
     kept_window.commands.fit()
     worker.commands.clear()
@@ -171,7 +187,7 @@ def solid_window(window: MainWindow, qtbot: QtBot) -> MainWindow:
     window.open("solid")
     qtbot.waitUntil(lambda: window.document.kind == "volume" and window.document.positions is not None)
     qtbot.waitUntil(lambda: window.target.view.geometry_shown is not None)
-    QTest.qWait(30)
+    pause(30)
     window.commands.fit()
     return window
 
@@ -214,5 +230,5 @@ class Hand:
         self.press(begin, button)
         for step in range(1, steps + 1):
             self.move(begin + (end - begin) * step / steps)
-            QTest.qWait(20)
+            pause(20)
         self.release(end, button)

@@ -11,8 +11,6 @@ from workbench.app.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 from workbench.cli import main
 
-LONG = 60_000
-
 
 def bound(window: MainWindow) -> float:
     """How far vertex 0 and vertex 30 are from one height."""
@@ -25,7 +23,7 @@ def test_equations_bind_the_map_until_they_are_undone(make_window: WindowMaker, 
     window = make_window(engine_worker)
     document = window.document
     document.open_sample("gingerbread", run=False)
-    qtbot.waitUntil(lambda: document.positions is not None and len(document.anchors) > 0, timeout=LONG)
+    qtbot.waitUntil(lambda: document.positions is not None and len(document.anchors) > 0)
     far = bound(window)
     assert far > 0.01
     window.actions_by_name["equations"].trigger()
@@ -41,12 +39,12 @@ def test_equations_bind_the_map_until_they_are_undone(make_window: WindowMaker, 
     qtbot.waitUntil(lambda: "Not applied" in dialog.state.text())
     qtbot.mouseClick(dialog.apply_button, Qt.MouseButton.LeftButton)
     document.run()
-    qtbot.waitUntil(lambda: document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.phase == "finished")
     assert bound(window) <= 1e-9
-    qtbot.waitUntil(lambda: "1 equation in force" in dialog.state.text(), timeout=LONG)
+    qtbot.waitUntil(lambda: "1 equation in force" in dialog.state.text())
     document.set_anchors(document.anchors.with_target(1, document.positions[1] + [0.1, 0.2]))
     serial = document.anchor_serial
-    qtbot.waitUntil(lambda: document.snapshot.anchor_serial == serial and document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.anchor_serial == serial and document.snapshot.phase == "finished")
     assert bound(window) <= 1e-9
     path = tmp_path / "bound.dwb"
     window.sessions.desk.save(str(path), is_copy=True)

@@ -35,7 +35,7 @@ def ring(tmp_path: Path) -> tuple[Path, Mesh]:
 @pytest.fixture
 def carrying(solid_window: MainWindow, ring: tuple[Path, Mesh], qtbot: QtBot) -> MainWindow:
     solid_window.carried.read(str(ring[0]))
-    qtbot.waitUntil(lambda: solid_window.carried.surface is not None, timeout=90_000)
+    qtbot.waitUntil(lambda: solid_window.carried.surface is not None)
     return solid_window
 
 
@@ -158,7 +158,7 @@ def test_another_mesh_lets_it_go(carrying: MainWindow, qtbot: QtBot) -> None:
 
 def test_the_sample_is_scaled_into_any_solid(solid_window: MainWindow, qtbot: QtBot) -> None:
     solid_window.carried.read("sample:salamander")
-    qtbot.waitUntil(lambda: solid_window.carried.surface is not None, timeout=90_000)
+    qtbot.waitUntil(lambda: solid_window.carried.surface is not None)
     surface = solid_window.carried.surface
     assert surface.outside_count == 0
     assert np.ptp(surface.surface.vertices, axis=0).min() > 0.3

@@ -338,4 +338,4 @@ def test_the_newest_value_goes_out_when_the_last_one_is_answered(qtbot: QtBot, m
     pacer.offer({"t": 21}, True)
     assert taken[-1] == {"t": 21}, "a hand that rests is answered at once"
     pacer.offer({"t": 22}, False)
-    qtbot.waitUntil(lambda: taken[-1] == {"t": 22}, timeout=3000)
+    qtbot.waitUntil(lambda: taken[-1] == {"t": 22})

@@ -25,8 +25,6 @@ from workbench.engine.session_file import read_session
 from workbench.figures.history_file import read_history
 from workbench.io.opening import open_source
 
-LONG = 60_000
-
 
 @pytest.fixture(scope="module")
 def solved(qapp, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindow]:  # type: ignore[no-untyped-def]
@@ -43,18 +41,18 @@ def solved(qapp, tmp_path_factory: pytest.TempPathFactory) -> Iterator[MainWindo
 @pytest.fixture
 def window(solved: MainWindow, qtbot: QtBot) -> MainWindow:
     document = solved.document
-    qtbot.waitUntil(lambda: document.positions is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: document.positions is not None)
     if not len(document.anchors):
         document.pin(np.array([3, 40]))
         document.move_anchor(3, document.positions[3] + [0.05, 0.1], False)
         document.run()
-        qtbot.waitUntil(lambda: document.snapshot.phase == "finished" and document.snapshot.row.iteration > 0, timeout=LONG)
+        qtbot.waitUntil(lambda: document.snapshot.phase == "finished" and document.snapshot.row.iteration > 0)
     return solved
 
 
 def exported(window: MainWindow, qtbot: QtBot, name: str, path: Path) -> Path:
     window.commands.exporting.export(name, str(path))
-    qtbot.waitUntil(path.exists, timeout=LONG)
+    qtbot.waitUntil(path.exists)
     return path
 
 
@@ -131,7 +129,7 @@ def test_a_picture_opens_the_session_that_it_shows(window: MainWindow, qtbot: Qt
     document = window.document
     png = tmp_path / "shot.png"
     window.commands.save_screenshot(window.target.view, str(png))
-    qtbot.waitUntil(png.exists, timeout=LONG)
+    qtbot.waitUntil(png.exists)
     record = read_session(png)
     assert np.array_equal(record.map, document.positions)
     assert record.session.anchor_vertices == document.complete_session.anchor_vertices
@@ -139,12 +137,12 @@ def test_a_picture_opens_the_session_that_it_shows(window: MainWindow, qtbot: Qt
     before, energy = document.positions, document.snapshot.row.energy
     document.set_anchors(document.anchors.without(3))
     document.run()
-    qtbot.waitUntil(lambda: document.snapshot.phase == "finished" and document.snapshot.row.energy < energy, timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.phase == "finished" and document.snapshot.row.energy < energy)
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(png))])
     buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
     window.dropEvent(QDropEvent(QPointF(300, 300), Qt.DropAction.CopyAction, data, buttons, keys))
-    qtbot.waitUntil(lambda: np.array_equal(document.positions, before), timeout=LONG)
+    qtbot.waitUntil(lambda: np.array_equal(document.positions, before))
     assert 3 in document.anchors
     assert window.sessions.desk.path == "", "saving asks for a place: a picture is no place for a session"
 
@@ -154,7 +152,7 @@ def test_the_preference_keeps_pictures_free_of_sessions(window: MainWindow, qtbo
     try:
         png = tmp_path / "bare.png"
         window.commands.save_screenshot(window.target.view, str(png))
-        qtbot.waitUntil(png.exists, timeout=LONG)
+        qtbot.waitUntil(png.exists)
         assert not window.sessions.takes(str(png))
     finally:
         window.preferring.preferences.set("carry_session", True)
@@ -165,7 +163,7 @@ def test_a_place_that_cannot_be_written_is_told(window: MainWindow, qtbot: QtBot
         window.error_bar.dismiss()
         folder = tmp_path / f"none-{name}"
         window.commands.exporting.export(name, str(folder / f"x{Path(KINDS[name].name).suffix}"))
-        qtbot.waitUntil(lambda: f"no folder {folder}" in window.error_bar.sentence.text(), timeout=LONG)  # noqa: B023
+        qtbot.waitUntil(lambda: f"no folder {folder}" in window.error_bar.sentence.text())  # noqa: B023
     assert list(tmp_path.iterdir()) == []
 
 
@@ -176,8 +174,8 @@ def test_uvs_in_the_unit_square_are_the_same_map(window: MainWindow, qtbot: QtBo
     assert window.error_bar.isVisible() and not flat.exists(), "a figure has its map as its vertices"
     window.error_bar.dismiss()
     window.open("sample:bumpy-disc")
-    qtbot.waitUntil(lambda: document.kind == "parameterize" and document.positions is not None, timeout=LONG)
-    qtbot.waitUntil(lambda: not document.opening_source and len(document.positions) == document.mesh.vertex_count, timeout=LONG)
+    qtbot.waitUntil(lambda: document.kind == "parameterize" and document.positions is not None)
+    qtbot.waitUntil(lambda: not document.opening_source and len(document.positions) == document.mesh.vertex_count)
     mesh, positions = document.mesh, document.positions
     opened = open_source(str(exported(window, qtbot, "export-unit", tmp_path / "disc.obj")))
     assert np.array_equal(opened.mesh.vertices, mesh.vertices) and np.array_equal(opened.mesh.simplices, mesh.simplices)

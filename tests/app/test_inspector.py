@@ -21,8 +21,6 @@ from workbench.engine.messages import Watch
 pytestmark = pytest.mark.usefixtures("kept_inspector")
 
 FORMULA, PLANE, CURVES, STAR, MIRROR = range(5)
-SLOW = 15_000
-"""Milliseconds: the first analysis compiles kernels."""
 
 
 @pytest.fixture
@@ -161,7 +159,7 @@ def test_the_badges_follow_the_choice(inspector: InspectorDock, window: MainWind
     answers = {}
     for id in ("symmetric-dirichlet", "dirichlet"):
         window.document.choose(distortion=id, distortion_parameters={})
-        qtbot.waitUntil(lambda: page.badges._analysis is not None, timeout=SLOW)
+        qtbot.waitUntil(lambda: page.badges._analysis is not None)
         answers[id] = {name: chip.text()[0] for name, chip in page.badges.chips.items()}
         chip = page.badges.chips["regular"]
         QTest.mouseClick(chip, Qt.MouseButton.LeftButton)
@@ -174,22 +172,22 @@ def test_the_badges_follow_the_choice(inspector: InspectorDock, window: MainWind
 def test_the_formula_is_drawn_and_drawn_anew_for_another(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
     pytest.importorskip("matplotlib")
     picture = inspector.body.formula.picture
-    qtbot.waitUntil(lambda: picture.drawing is not None, timeout=SLOW)
+    qtbot.waitUntil(lambda: picture.drawing is not None)
     first = picture.drawing
     assert (first.ink > 128).sum() > 100
     assert first.ink.shape[1] <= picture.width() * first.ratio
     window.document.choose(distortion="sum(sigma^4) + weight/det^2", distortion_parameters={"weight": 2.0})
-    qtbot.waitUntil(lambda: picture.drawing is not None and picture.drawing is not first, timeout=SLOW)
+    qtbot.waitUntil(lambda: picture.drawing is not None and picture.drawing is not first)
     assert r"\mathrm{weight}" in "".join(picture.drawing.terms)
     assert "weight = 2" in inspector.body.formula.parameters.text()
 
 
 def test_an_analysis_that_comes_late_is_not_shown(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
     page = inspector.body.formula
-    qtbot.waitUntil(lambda: page.badges._analysis is not None, timeout=SLOW)
+    qtbot.waitUntil(lambda: page.badges._analysis is not None)
     old_key, old = inspector.subject.key, page.badges._analysis
     window.document.choose(distortion="volume", distortion_parameters={})
-    qtbot.waitUntil(lambda: page.badges._analysis not in (None, old), timeout=SLOW)
+    qtbot.waitUntil(lambda: page.badges._analysis not in (None, old))
     page._take_analysis((old_key, old, ""))
     assert page.badges._analysis is not old
 
@@ -202,7 +200,7 @@ def test_each_analysis_is_made_once(inspector: InspectorDock, window: MainWindow
     try:
         for id in ("mips", "volume", "mips", "volume"):
             window.document.choose(distortion=id, distortion_parameters={})
-            qtbot.waitUntil(lambda: page.badges._analysis is not None, timeout=SLOW)
+            qtbot.waitUntil(lambda: page.badges._analysis is not None)
         inspector.dimension = 2
     finally:
         page._analyser = analyser
@@ -368,7 +366,7 @@ def test_curves_of_others_come_and_go(inspector: InspectorDock, qtbot: QtBot) ->
 def test_the_vertex_of_the_star_is_pulled_by_hand(inspector: InspectorDock, qtbot: QtBot) -> None:
     inspector.body.tabs.setCurrentIndex(STAR)
     page = inspector.body.star
-    qtbot.waitUntil(lambda: page.path is not None, timeout=SLOW)
+    qtbot.waitUntil(lambda: page.path is not None)
     page.pull(0.0)
     assert "no triangle is inverted" in page.sentence.text()
     picture = page.picture
@@ -385,7 +383,7 @@ def test_the_vertex_of_the_star_is_pulled_by_hand(inspector: InspectorDock, qtbo
 def test_a_distortion_without_barrier_says_so(inspector: InspectorDock, window: MainWindow, qtbot: QtBot) -> None:
     inspector.body.tabs.setCurrentIndex(STAR)
     window.document.choose(distortion="dirichlet", distortion_parameters={})
-    qtbot.waitUntil(lambda: "no barrier" in inspector.body.star.sentence.text(), timeout=SLOW)
+    qtbot.waitUntil(lambda: "no barrier" in inspector.body.star.sentence.text())
 
 
 @pytest.mark.parametrize(("id", "words"), [("dirichlet", "convex along this path"), ("arap", "Not convex")])
@@ -398,7 +396,7 @@ def test_the_mirror_path_tells_about_convexity(
     try:
         inspector.subject.dimension = dimension
         window.document.choose(distortion=id, distortion_parameters={})
-        qtbot.waitUntil(lambda: words in page.sentence.text(), timeout=SLOW)
+        qtbot.waitUntil(lambda: words in page.sentence.text())
         page.slider.setValue(page.slider.maximum())
         assert page.t == 1.0
         assert page.picture.scene.inverted.all()
@@ -416,7 +414,7 @@ def test_a_window_that_was_left_open_comes_back_so(make_window: WindowMaker, qtb
     first.close()
     second = make_window()
     assert second.inspector.toggle.isChecked() and second.inspector.isVisible()
-    qtbot.waitUntil(lambda: second.inspector.subject.distortion is not None, timeout=SLOW)
+    qtbot.waitUntil(lambda: second.inspector.subject.distortion is not None)
     second.inspector.toggle.trigger()
     qtbot.wait(100)
     assert not any(second.tabifiedDockWidgets(dock) for dock in second.maps)

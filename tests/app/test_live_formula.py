@@ -11,8 +11,6 @@ from tests.app.conftest import WindowMaker
 from workbench.app.document import Document
 from workbench.app.engine_bridge import engine_worker
 
-LONG = 60_000
-"""Milliseconds: the first use compiles kernels."""
 BLEND = "lam*symmetric_dirichlet + (1 - lam)*exp(condition_number)"
 
 
@@ -27,7 +25,7 @@ def rest(document: Document, qtbot: QtBot) -> None:
 def test_a_slider_moves_the_running_map_and_what_does_not_suit_it_is_refused(make_window: WindowMaker, qtbot: QtBot) -> None:
     window = make_window(engine_worker, source="")
     document, box = window.document, window.panel.distortion
-    qtbot.waitUntil(lambda: len(document.anchors) > 0 and box.combo.count() > 1, timeout=LONG)
+    qtbot.waitUntil(lambda: len(document.anchors) > 0 and box.combo.count() > 1)
     vertex = int(document.anchors.vertices[-1])
     reach = 0.4 * np.ptp(document.positions, axis=0)
     document.move_anchor(vertex, document.anchors.targets[vertex] + reach, False)
@@ -36,7 +34,7 @@ def test_a_slider_moves_the_running_map_and_what_does_not_suit_it_is_refused(mak
     box.edit.selectAll()
     QTest.keyClicks(box.edit, BLEND)
     QTest.keyClick(box.edit, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: document.snapshot.distortion == BLEND and document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.distortion == BLEND and document.snapshot.phase == "finished")
 
     iterations, energies, inverted = [], [], []
     document.snapshot_taken.connect(lambda: iterations.append(document.snapshot.row.iteration))
@@ -49,10 +47,10 @@ def test_a_slider_moves_the_running_map_and_what_does_not_suit_it_is_refused(mak
         row.slider.setValue(tick)
         qtbot.wait(10)
     row.slider.setValue(row.range.ticks)
-    qtbot.waitUntil(lambda: len(iterations) > 3, timeout=LONG)  # maps come before the hand lets go
+    qtbot.waitUntil(lambda: len(iterations) > 3)  # maps come before the hand lets go
     row.slider.setSliderDown(False)
     last = len(iterations)
-    qtbot.waitUntil(lambda: len(iterations) > last and document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: len(iterations) > last and document.snapshot.phase == "finished")
     assert iterations == sorted(iterations) and iterations[0] > 1, "it goes on, and does not start over"
     assert document.session.distortion_parameters == {"lam": 1.0}
     assert not any(inverted)
@@ -63,7 +61,7 @@ def test_a_slider_moves_the_running_map_and_what_does_not_suit_it_is_refused(mak
     box.edit.selectAll()
     QTest.keyClicks(box.edit, "log(1.4 - sigma1/sigma2) + sum(sigma^2)")  # finite at ordinary values, not on this map
     QTest.keyClick(box.edit, Qt.Key.Key_Return)
-    qtbot.waitUntil(window.error_bar.isVisible, timeout=LONG)
+    qtbot.waitUntil(window.error_bar.isVisible)
     assert "finite number" in box.error.text()
     assert document.session.distortion == BLEND
     np.testing.assert_allclose(document.positions, here)

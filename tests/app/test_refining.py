@@ -116,7 +116,7 @@ def test_curves_are_shown_and_saved(dialog: RefineDialog, window: MainWindow, qt
     dialog.curve_levels.setValue(1)
     dialog.measure.click()
     assert not dialog.measure.isEnabled()
-    qtbot.waitUntil(dialog.save.isEnabled, timeout=60000)
+    qtbot.waitUntil(dialog.save.isEnabled)
     assert not dialog.picture.pixmap().isNull() and dialog.measure.isEnabled()
     assert dialog.picture.width() >= dialog.picture.pixmap().deviceIndependentSize().width()
     for ending, magic in (("pdf", b"%PDF"), ("svg", b"<?xml"), ("png", b"\x89PNG")):

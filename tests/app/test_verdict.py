@@ -19,7 +19,8 @@ from workbench.core.mesh import Mesh
 def open_and_fold(window: MainWindow, qtbot: QtBot, source: str, kind: str, vertex: int) -> None:
     """A map in which a vertex was pulled through the mesh while the others stay about where they are."""
     window.open(source)
-    qtbot.waitUntil(lambda: window.document.kind == kind and window.document.positions is not None)
+    document = window.document
+    qtbot.waitUntil(lambda: document.kind == kind and document.positions is not None and not document.opening_source)
     window.document.pin(np.arange(window.document.mesh.vertex_count))
     place = window.document.positions[vertex] + np.array([0.9, 0.4, 0.3])[: window.document.mesh.dimension]
     window.document.move_anchor(vertex, place, False)
@@ -34,7 +35,7 @@ def test_places_to_blame_are_listed_marked_and_looked_at(
     inverted = np.flatnonzero(window.document.snapshot.inverted)
     QTest.keyClick(window, Qt.Key.Key_J, Qt.KeyboardModifier.ControlModifier)
     judging = window.commands.judging
-    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0, timeout=60_000)
+    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0)
     assert "inverted" in judging.list.words.text()
     seen = []
     for _ in inverted:
@@ -57,7 +58,7 @@ def test_of_a_solid_the_place_can_be_drawn_alone_until_the_list_is_closed(window
     open_and_fold(window, qtbot, "solid", "volume", 42)
     window.actions_by_name["judge"].trigger()
     judging = window.commands.judging
-    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0, timeout=60_000)
+    qtbot.waitUntil(lambda: judging.list is not None and judging.list.list.topLevelItemCount() > 0)
     judging.walk(1)
     judging.list.alone.setChecked(True)
     drawn = window.target.view.geometry_shown

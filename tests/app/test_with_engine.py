@@ -18,16 +18,13 @@ from tests.app.conftest import Hand, WindowMaker, pixel_of
 from workbench.app.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 
-LONG = 60_000
-"""Milliseconds: the first use compiles kernels."""
-
 
 @pytest.fixture
 def live(make_window: WindowMaker, qtbot: QtBot) -> MainWindow:
     """A window on the first sample, its solver running."""
     window = make_window(engine_worker, source="")
-    qtbot.waitUntil(lambda: len(window.document.anchors) > 0, timeout=LONG)
-    qtbot.waitUntil(lambda: window.document.snapshot.anchor_serial == window.document.anchor_serial, timeout=LONG)
+    qtbot.waitUntil(lambda: len(window.document.anchors) > 0)
+    qtbot.waitUntil(lambda: window.document.snapshot.anchor_serial == window.document.anchor_serial)
     return window
 
 
@@ -53,31 +50,31 @@ def test_open_anchor_drag_pause_switch_close(live: MainWindow, qtbot: QtBot) -> 
     for step in range(1, 31):
         hand.move(begin + QPoint(-2 * step, step))
         QTest.qWait(16)
-    qtbot.waitUntil(lambda: not np.allclose(document.positions, before), timeout=LONG)
+    qtbot.waitUntil(lambda: not np.allclose(document.positions, before))
     hand.release(begin + QPoint(-60, 30))
-    qtbot.waitUntil(lambda: not np.array_equal(live.histogram.counts, counts), timeout=LONG)
+    qtbot.waitUntil(lambda: not np.array_equal(live.histogram.counts, counts))
     assert not any(inverted), "no map that was drawn has an inverted triangle"
     assert live.reporter.drag_meter.delays
 
     goal = np.array(document.anchors.targets[anchored])
     close = 1e-8 * document.mesh.diameter
-    qtbot.waitUntil(lambda: np.linalg.norm(document.positions[anchored] - goal) <= close, timeout=LONG)
-    qtbot.waitUntil(lambda: document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: np.linalg.norm(document.positions[anchored] - goal) <= close)
+    qtbot.waitUntil(lambda: document.snapshot.phase == "finished")
     assert document.snapshot.status.value in live.status.sentence.text()
 
-    qtbot.waitUntil(lambda: live.panel.distortion.combo.count() > 0, timeout=LONG)
+    qtbot.waitUntil(lambda: live.panel.distortion.combo.count() > 0)
     document.choose(distortion="mips")
     document.run()
-    qtbot.waitUntil(lambda: document.snapshot.distortion == "mips", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.distortion == "mips")
     document.choose(distortion="arap")
-    qtbot.waitUntil(lambda: document.snapshot.distortion == "arap", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.distortion == "arap")
 
     document.pause()
-    qtbot.waitUntil(lambda: document.snapshot.phase == "idle", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.phase == "idle")
     live.activateWindow()
     QTest.qWaitForWindowActive(live)
     QTest.keyClick(live, Qt.Key.Key_Home)
-    qtbot.waitUntil(lambda: document.snapshot.row.iteration == 0, timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.row.iteration == 0)
 
 
 def test_a_killed_engine_comes_back_in_the_middle_of_a_drag(live: MainWindow, qtbot: QtBot) -> None:
@@ -90,7 +87,7 @@ def test_a_killed_engine_comes_back_in_the_middle_of_a_drag(live: MainWindow, qt
         hand.move(begin + QPoint(-2 * step, 0))
         QTest.qWait(16)
     os.kill(live.bridge._worker.process_id, signal.SIGKILL)
-    qtbot.waitUntil(live.error_bar.isVisible, timeout=LONG)
+    qtbot.waitUntil(live.error_bar.isVisible)
     assert "restarted" in live.error_bar.sentence.text()
     for step in range(11, 31):
         hand.move(begin + QPoint(-2 * step, 0))
@@ -98,18 +95,18 @@ def test_a_killed_engine_comes_back_in_the_middle_of_a_drag(live: MainWindow, qt
     hand.release(begin + QPoint(-60, 0))
     goal = np.array(document.anchors.targets[anchored])
     close = 1e-6 * document.mesh.diameter
-    qtbot.waitUntil(lambda: np.linalg.norm(document.positions[anchored] - goal) <= close, timeout=LONG)
+    qtbot.waitUntil(lambda: np.linalg.norm(document.positions[anchored] - goal) <= close)
 
 
 def test_a_surface_is_mapped_and_saved(make_window: WindowMaker, qtbot: QtBot, tmp_path: Path) -> None:
     window = make_window(engine_worker, source="sample:bumpy-disc")
     document = window.document
-    qtbot.waitUntil(lambda: document.positions is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: document.positions is not None)
     assert document.kind == "parameterize"
     document.run()
-    qtbot.waitUntil(lambda: document.snapshot.phase == "finished", timeout=LONG)
+    qtbot.waitUntil(lambda: document.snapshot.phase == "finished")
     path = tmp_path / "map.obj"
-    with qtbot.waitSignal(window.commands.saver.saved, timeout=LONG):
+    with qtbot.waitSignal(window.commands.saver.saved):
         window.commands.save_map(str(path))
     lines = path.read_text().splitlines()
     assert sum(line.startswith("vt ") for line in lines) == document.mesh.vertex_count
@@ -121,11 +118,11 @@ def test_a_file_that_is_none_is_refused_with_a_sentence(live: MainWindow, qtbot:
     path = tmp_path / "picture.obj"
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(200))
     live.open(str(path))
-    qtbot.waitUntil(live.error_bar.isVisible, timeout=LONG)
+    qtbot.waitUntil(live.error_bar.isVisible)
     assert live.error_bar.sentence.text()
     number = live.document.snapshot.number
     live.document.step()
-    qtbot.waitUntil(lambda: live.document.snapshot.number > number, timeout=LONG)
+    qtbot.waitUntil(lambda: live.document.snapshot.number > number)
 
 
 TWENTY = """

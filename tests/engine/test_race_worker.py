@@ -170,7 +170,7 @@ class Owner:
         self.worker = RaceWorker(lambda: None)
         self.worker.start()
 
-    def until(self, holds: Callable[[], bool], seconds: float = 60.0) -> None:
+    def until(self, holds: Callable[[], bool], seconds: float = 200.0) -> None:
         end = time.monotonic() + seconds
         while not holds():
             assert time.monotonic() < end, "the race did not get there"

@@ -39,7 +39,7 @@ from workbench.engine.messages import (
 )
 from workbench.engine.worker import CRASHES_IN_A_ROW, EngineWorker
 
-PATIENCE = 60.0
+PATIENCE = 200.0
 
 LOOPS = '''
 from dataclasses import dataclass
