@@ -70,18 +70,25 @@ def rows_of(text: str) -> tuple[Rows, bool]:
     """The cells of every line that has any, and whether numbers have a decimal comma.
 
     Cells are parted by tabs where there is one, else by semicolons, else by commas. Raises `WorkbenchError` where decimal
-    points and commas are mixed: one of them would then be read for what it is not.
+    points and commas are mixed, since one of them would then be read for what it is not, and where a quoted cell has no end.
     """
     separator = "\t" if "\t" in text else ";" if ";" in text else ","
     lines = text.splitlines()
     if '"' in text:
-        found = [(n, row) for n, line in enumerate(lines, 1) if line.strip() for row in csv.reader([line], delimiter=separator)]
+        found = [(n, row) for n, line in enumerate(lines, 1) if line.strip() for row in _quoted_cells(line, n, separator)]
     else:
         found = [(n, line.split(separator)) for n, line in enumerate(lines, 1) if line.strip()]
     has_commas = separator != "," and any("," in cell for _, row in found for cell in row)
     if has_commas and any("." in cell and _is_numeral(cell) for _, row in found for cell in row):
         raise WorkbenchError("Some numbers have a decimal point and some a comma; write all of them in one way.")
     return found, has_commas
+
+
+def _quoted_cells(line: str, number: int, separator: str) -> list[list[str]]:
+    try:
+        return list(csv.reader([line], delimiter=separator))
+    except csv.Error as error:
+        raise WorkbenchError(f"Line {number} cannot be read: {error}; mend its quotation marks.") from None
 
 
 def _is_numeral(cell: str) -> bool:
