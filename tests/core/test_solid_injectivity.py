@@ -14,6 +14,7 @@ from workbench.core.injectivity import global_injectivity, local_injectivity, or
 from workbench.core.mesh import Mesh
 from workbench.core.samples import make_sample
 from workbench.core.solid_injectivity import winding_number
+from workbench.core.solid_stars import dihedral_range
 from workbench.core.triangle_pairs import meeting_triangles
 
 CORNER = np.vstack([np.zeros(3), np.eye(3)])
@@ -44,6 +45,18 @@ def bent(mesh: Mesh, angle: float) -> np.ndarray:
 
 
 # ------------------------------------------------------------------------------------------- verdicts
+
+
+@pytest.mark.parametrize("size", [1e-65, 1e65])
+def test_the_size_of_a_map_changes_nothing(size: float) -> None:
+    """Dihedral angles take fourth powers of lengths, which leave the range of numbers long before the lengths do."""
+    for turns in (1.0, 2.0):
+        mesh, positions = fan_of_wedges(turns)
+        for verdict in (local_injectivity, global_injectivity):
+            assert verdict(mesh, positions * size).holds is verdict(mesh, positions).holds
+    corners = np.vstack([CORNER, [[0.3, 0.3, -0.8]]]) * size
+    smallest, largest = dihedral_range(np.array([[0, 1, 2, 3], [0, 2, 1, 4]]), corners)
+    assert (smallest, largest) == pytest.approx(dihedral_range(np.array([[0, 1, 2, 3], [0, 2, 1, 4]]), corners / size))
 
 
 @pytest.mark.parametrize("sample", ["ball", "bar-3d"])
@@ -81,9 +94,7 @@ def test_wedges_round_an_inner_edge_wind_once(turns: int, holds: bool) -> None:
         assert len(offenders.simplices(mesh)) == 12
 
 
-@pytest.mark.parametrize(
-    ("turns", "holds"), [(0.9, True), (1.0 - 1e-9, True), (1.0 + 1e-9, False), (1.5, False), (2.2, False)]
-)
+@pytest.mark.parametrize(("turns", "holds"), [(0.9, True), (1.0 - 1e-9, True), (1.0 + 1e-9, False), (1.5, False), (2.2, False)])
 def test_an_open_fan_of_wedges_must_not_close(turns: float, holds: bool) -> None:
     mesh, positions = fan_of_wedges(turns, closed=False)
     assert (orientation_signs(mesh, positions) == 1).all()

@@ -69,11 +69,17 @@ def dihedral_range(tetrahedra: Integers, positions: Floats) -> tuple[float, floa
 def _dihedral_angles(corners: Integers, positions: Floats) -> Floats:
     """Angle (r,) of each tetrahedron at the edge of its first two corners."""
     a = positions[corners[:, 0]]
-    axis = positions[corners[:, 1]] - a
-    u, v = (np.cross(axis, positions[corners[:, i]] - a) for i in (2, 3))
+    axis, second, third = (_of_size_one(positions[corners[:, i]] - a) for i in (1, 2, 3))
+    u, v = np.cross(axis, second), np.cross(axis, third)
     sine, cosine = np.linalg.norm(np.cross(u, v), axis=1), np.einsum("ij,ij->i", u, v)
     angles: Floats = np.arctan2(sine, cosine)
     return angles
+
+
+def _of_size_one(edges: Floats) -> Floats:
+    """Edges (r, 3) with the largest coordinate of each at 1, so that fourth powers of lengths stay in range."""
+    largest = np.abs(edges).max(axis=1, keepdims=True)
+    return edges / np.where(largest > 0.0, largest, 1.0)
 
 
 def _turns(corners: Integers, edge_of: Integers, positions: Floats) -> Integers:
