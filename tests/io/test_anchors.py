@@ -59,7 +59,7 @@ def test_reads_back_the_same(tmp_path: Path, weights: list[float]) -> None:
         ("vertex,x,y,weight\n1,0,0,0\n", "weight '0'"),
         ("vertex,x,y,weight\n1,0,0,-inf\n", "weight"),
         ("vertex,x,y,weight\n1,0,0,nan\n", "weight"),
-        ('vertex,x,y\n1,0,"' + "9" * 200_000, "Line 2"),
+        pytest.param('vertex,x,y\n1,0,"' + "9" * 200_000, "Line 2", id="a quoted cell without end"),
     ],
 )
 def test_refusals_name_the_line(tmp_path: Path, text: str, what: str) -> None:
