@@ -55,8 +55,10 @@ def unblocked(
     -------
     (k, d), (N, d) float64      as given where nothing is blocked, or where everything is
     """
-    size, simplex = bounded_push(problem, x, direction)
     going = [rows for rows in groups if np.abs(displacement[rows]).max(initial=0.0) > problem.anchor_tolerance]
+    if len(going) < 2:
+        return displacement, direction
+    size, simplex = bounded_push(problem, x, direction)
     places = x[problem.anchors.hard_vertices]
     rest = displacement
     for _ in range(MOST_WAITING):
