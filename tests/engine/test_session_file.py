@@ -67,7 +67,9 @@ def records(draw: st.DrawFn) -> SessionRecord:
     positions = draw(st.one_of(st.none(), st.just(np.arange(10.0).reshape(5, 2) / 7)))
     first = Leg(
         replace(
-            session.in_force, solver="slim", anchor_vertices=(), anchor_targets=(), anchor_weights=(), anchor_groups=()
+            session.in_force, solver="slim", anchor_vertices=(), anchor_targets=(), anchor_weights=(), anchor_groups=(),
+            linear_equations=draw(st.sampled_from([(), ("x[1] = 0.5",)])), tolerance=draw(st.sampled_from([1e-6, 1e-9])),
+            fixed_boundary=draw(st.booleans()), allow_inversions=draw(st.booleans()), distortion_parameters=draw(PARAMETERS),
         ), "start"
     )  # fmt: skip
     legs = (replace(first, iterations=3), Leg(session.in_force, "previous", None, 7)) if draw(st.booleans()) else ()
@@ -317,6 +319,32 @@ HOSTILE_MEMBERS: dict[str, Packer] = {
     "bomb": lambda z: z.writestr("map.npy", b"\0" * 50_000_000, zipfile.ZIP_DEFLATED),
     "text bomb": lambda z: z.writestr("session.json", b" " * 80_000_000, zipfile.ZIP_DEFLATED),
 }
+
+
+@pytest.mark.parametrize("name", ["../../evil.npy", "/tmp/evil.npy", "a/b.npy", "..\\evil.npy"])
+def test_members_that_lead_elsewhere_are_told_as_such(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "s.dwb"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("session.json", json.dumps(HEAD))
+        archive.writestr(name, npy(np.zeros((3, 2))))
+    assert "leads elsewhere" in refused(path)
+
+
+def test_a_link_in_a_zip_is_told_as_such(tmp_path: Path) -> None:
+    path, link = tmp_path / "s.dwb", zipfile.ZipInfo("map.npy")
+    link.external_attr = 0o120777 << 16
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("session.json", json.dumps(HEAD))
+        archive.writestr(link, npy(np.zeros((3, 2))))
+    assert "leads elsewhere" in refused(path)
+
+
+def test_a_map_that_unpacks_to_far_more_than_its_file_is_not_unpacked(tmp_path: Path) -> None:
+    path = tmp_path / "s.dwb"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("session.json", json.dumps(HEAD))
+        archive.writestr("map.npy", npy(np.zeros((100_000, 2))))
+    assert "Unpacked" in refused(path)
 
 
 @pytest.mark.parametrize("name", HOSTILE_MEMBERS)
