@@ -2,11 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
+
+from PySide6.QtCore import QCoreApplication, QEvent
 
 from workbench.engine.loop import EngineLoop
 from workbench.engine.messages import Command, MapReport, Ready, Report, SetAnchors, Snapshot, Step
+
+
+@contextmanager
+def garbage_of_this_thread() -> Iterator[None]:
+    """Within it nothing is collected, and all at its end: on the thread that packs maps Qt's objects must not end."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        gc.collect()
+        gc.enable()
 
 
 class LoopWorker:

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.app.fake_engine import let_reports_arrive
-from tests.app.loop_worker import LoopWorker
+from tests.app.loop_worker import LoopWorker, garbage_of_this_thread
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
 from workbench.app.history import COLUMNS, History
@@ -54,6 +54,12 @@ class Room:
         self.undoing.wait()
         let_reports_arrive()
         self.document.deleteLater()
+
+
+@pytest.fixture(autouse=True)
+def collected_here(qapp: object):  # type: ignore[no-untyped-def]
+    with garbage_of_this_thread():
+        yield
 
 
 @pytest.fixture

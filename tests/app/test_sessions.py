@@ -20,6 +20,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
 from tests.app.fake_engine import FakeWorker, grid_mesh
+from tests.app.loop_worker import garbage_of_this_thread
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge, engine_worker
 from workbench.app.main_window import MainWindow
@@ -75,7 +76,13 @@ class Desk:
 
 
 @pytest.fixture
-def desk(qapp: object) -> Iterator[Desk]:
+def collected_here(qapp: object) -> Iterator[None]:
+    with garbage_of_this_thread():
+        yield
+
+
+@pytest.fixture
+def desk(collected_here: None) -> Iterator[Desk]:
     desk = Desk()
     yield desk
     desk.end()

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from PySide6.QtCore import QCoreApplication
 
-from tests.app.loop_worker import LoopWorker
+from tests.app.loop_worker import LoopWorker, garbage_of_this_thread
 from tests.conftest import grid
 from workbench.app.document import Document
 from workbench.app.engine_bridge import EngineBridge
@@ -166,6 +166,12 @@ def reset(bench: Bench, value: int) -> None:
 
 DEEDS = (anchor, anchor, drag, weigh, group, switch_off, let_go, choose, choose, open_another, run, step, reset)
 JUMP = "jump"
+
+
+@pytest.fixture(autouse=True)
+def collected_here(qapp: object) -> Iterator[None]:
+    with garbage_of_this_thread():
+        yield
 
 
 @pytest.fixture(scope="module")
