@@ -27,6 +27,7 @@ from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.theme import ThemeSwitch
 from workbench.app.views.mesh_view import MeshView
+from workbench.core.solid_look.look import VolumeLook
 from workbench.session.session import Session
 
 WindowMaker = Callable[..., MainWindow]
@@ -188,6 +189,7 @@ def solid_window(window: MainWindow, qtbot: QtBot) -> MainWindow:
     qtbot.waitUntil(lambda: window.document.kind == "volume" and window.document.positions is not None)
     qtbot.waitUntil(lambda: window.target.view.geometry_shown is not None)
     pause(30)
+    window.volume.choose(**vars(VolumeLook()))  # whatever the test before looked at
     window.commands.fit()
     return window
 
