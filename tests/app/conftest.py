@@ -147,7 +147,7 @@ def kept_window(qapp: QApplication, tmp_path_factory: pytest.TempPathFactory) ->
     """One window for the tests of a module: making one takes a second without a graphics card."""
     window = new_window(tmp_path_factory.mktemp("settings") / "window.ini", FakeWorker, "light")
     window.bridge.start()
-    window._finder._begin()  # it would wait for a map
+    window._finder.begin()  # it would wait for a map
     while not window.panel.solver.combo.count():  # until the methods are listed the panel changes its width
         pause(5)
     sizes = [window.target.view.size()]

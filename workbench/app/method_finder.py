@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal, SignalInstance
 from workbench.app.background import Background
 from workbench.core.errors import WorkbenchError
 
-PATIENCE = 800
+PATIENCE = 1600
 """Milliseconds that the methods wait for the first map: both take the interpreter, and a map shows more than a list."""
 PAUSE = 1500
 """Milliseconds from the list of methods to the work on their formulas."""
@@ -32,10 +32,11 @@ class MethodFinder(QObject):
 
     def start_after(self, first_map: SignalInstance) -> None:
         """Look for them when there is a first map, or none comes."""
-        first_map.connect(self._begin)
-        QTimer.singleShot(PATIENCE, self, self._begin)
+        first_map.connect(self.begin)
+        QTimer.singleShot(PATIENCE, self, self.begin)
 
-    def _begin(self) -> None:
+    def begin(self) -> None:
+        """Look for them now."""
         if not self._has_begun:
             self._has_begun = True
             QTimer.singleShot(0, self, self._search.start)
