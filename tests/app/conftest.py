@@ -21,11 +21,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.app.fake_engine import FakeWorker
-from workbench.app.engine_bridge import WorkerMaker
+from workbench.app.appearance.theme import ThemeSwitch
+from workbench.app.document.engine_bridge import WorkerMaker
 from workbench.app.inspector.body import InspectorBody
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
-from workbench.app.theme import ThemeSwitch
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.solid_look.look import VolumeLook
 from workbench.session.session import Session

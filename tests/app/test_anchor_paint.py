@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen
 
-from workbench.app.theme import ANCHOR, LIGHT
+from workbench.app.appearance.theme import ANCHOR, LIGHT
 from workbench.app.views import stamps
 from workbench.app.views.anchor_paint import HOLLOW, paint_anchors
 from workbench.app.views.stamps import stamp_discs

@@ -15,11 +15,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QMessageBox
 from pytestqt.qtbot import QtBot
 
-from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors import anchor_dock
 from workbench.app.anchors.anchor_dock import AnchorDock
 from workbench.app.anchors.anchor_edits import pasted, set_of, table_of
 from workbench.app.anchors.anchor_table_model import AnchorTableModel
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.app.main_window import MainWindow
 from workbench.app.sessions.restoring import anchors_in, with_anchors
 from workbench.core.errors import WorkbenchError

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import WindowMaker
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 from workbench.cli import main
 

@@ -11,10 +11,10 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import pixels_of
+from workbench.app.appearance.theme import BRUSH
 from workbench.app.main_window import MainWindow
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import BRUSH
 from workbench.app.views.brush_mark import BrushedParts
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.mesh import Mesh

@@ -13,9 +13,9 @@ from pytestqt.qtbot import QtBot
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from tests.app.fake_engine import bumpy_mesh, grid_mesh
-from workbench.app.colour_range import ColourRange
-from workbench.app.quantities import LIVE_QUANTITIES
-from workbench.app.theme import LIGHT
+from workbench.app.appearance.theme import LIGHT
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.quantities.quantities import LIVE_QUANTITIES
 from workbench.app.views import mesh_view
 from workbench.app.views.actors import actor_of, mapper_of
 from workbench.app.views.canvas import CardCanvas, MemoryCanvas

@@ -5,19 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from workbench.app.colour_bar import ticks
-from workbench.app.colour_legend import note_of
-from workbench.app.colour_range import ColourRange
-from workbench.app.formula_dialog import values_in
-from workbench.app.quantities import (
+from workbench.app.colouring.colour_bar import ticks
+from workbench.app.colouring.colour_legend import note_of
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.colouring.range_fit import rounded_down, rounded_factor, rounded_up
+from workbench.app.quantities.formula_dialog import values_in
+from workbench.app.quantities.quantities import (
     CONFORMAL_FACTOR,
     FACTORS,
     LIVE_QUANTITIES,
     quantity_of_distortion,
     quantity_of_formula,
 )
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.range_fit import rounded_down, rounded_factor, rounded_up
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry

@@ -15,7 +15,7 @@ from PySide6.QtGui import QDropEvent
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import end_window, new_window
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.main_window import MainWindow
 from workbench.cli import main

@@ -15,11 +15,11 @@ from pytestqt.qtbot import QtBot
 import workbench.app
 from workbench.app.binding.equation_dialog import FILTER
 from workbench.app.composing.figure_presets import FigurePresets
-from workbench.app.file_choice import MAP_FILTERS, ask_file, ask_files, ask_folder
-from workbench.app.file_drops import FileDrops
+from workbench.app.files.file_choice import MAP_FILTERS, ask_file, ask_files, ask_folder
+from workbench.app.files.file_drops import FileDrops
+from workbench.app.files.new_file import ask_new_file, endings_of
 from workbench.app.filling.fill_dialog import FillDialog
 from workbench.app.main_window import MainWindow
-from workbench.app.new_file import ask_new_file, endings_of
 
 
 def open_dialog(window: QWidget) -> QFileDialog:

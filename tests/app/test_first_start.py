@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from tests.app.fake_engine import FakeWorker, grid_mesh, let_reports_arrive
-from workbench.app.document import Document
-from workbench.app.engine_bridge import EngineBridge
-from workbench.app.first_start import start_in_force
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge
+from workbench.app.document.first_start import start_in_force
 from workbench.app.main_window import MainWindow
 from workbench.app.sessions.undoing import Undoing
 from workbench.core.registry import registry

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from matplotlib.path import Path
 from scipy.spatial.transform import Rotation
 
-from workbench.app.anchor_set import AnchorSet
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.app.handling.lasso import box_outline, in_outline
 from workbench.app.handling.motion import Motion
 from workbench.app.handling.reflection import Reflection, Twins, fitted_reflection, found_plane, planes_of_box

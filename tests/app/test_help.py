@@ -16,12 +16,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
+from workbench.app.appearance.theme import DARK, LIGHT
 from workbench.app.help.chapters import cut_into_chapters, read_chapters, with_fences
 from workbench.app.help.help_desk import AT_FIRST, CHAPTER_OF
 from workbench.app.help.help_window import HelpWindow
 from workbench.app.help.page import is_code
 from workbench.app.main_window import MainWindow
-from workbench.app.theme import DARK, LIGHT
 
 
 @pytest.fixture(scope="module")

@@ -8,11 +8,11 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from workbench.app.colouring.range_menu import EndsDialog
 from workbench.app.docks.histogram_dock import BINS
-from workbench.app.formula_dialog import FormulaDialog
 from workbench.app.main_window import MainWindow
-from workbench.app.quantity_chooser import FORMULA
-from workbench.app.range_menu import EndsDialog
+from workbench.app.quantities.formula_dialog import FormulaDialog
+from workbench.app.quantities.quantity_chooser import FORMULA
 from workbench.core.jacobians import simplex_measures
 from workbench.engine.messages import Watch
 

@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import WindowMaker
-from workbench.app.document import Document
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import engine_worker
 
 BLEND = "lam*symmetric_dirichlet + (1 - lam)*exp(condition_number)"
 

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
 from tests.app.space_hand import anchor_face, facing_sides
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.handling.company import Customs
 from workbench.app.main_window import MainWindow
 from workbench.app.views.mesh_view import MeshView

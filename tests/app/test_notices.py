@@ -14,13 +14,13 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from workbench.app.appearance.theme import DARK, LIGHT, Theme
 from workbench.app.main_window import MainWindow
 from workbench.app.notices.floating_column import FloatingColumn
 from workbench.app.notices.log_dock import LogDock
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import MOST, NoticeList, level_colour
-from workbench.app.progress_bar import ProgressLine
-from workbench.app.theme import DARK, LIGHT, Theme
+from workbench.app.status.progress_bar import ProgressLine
 from workbench.engine.messages import LogLine
 
 
@@ -75,7 +75,7 @@ def test_what_was_read_goes_with_the_next_step_or_esc_and_what_offers_a_fix_stay
     window.document.pin(np.array([0]))
     assert not bar.isHidden(), "nobody has read it yet"
     now = time.monotonic()
-    monkeypatch.setattr("workbench.app.error_bar.time.monotonic", lambda: now + 60.0)
+    monkeypatch.setattr("workbench.app.status.error_bar.time.monotonic", lambda: now + 60.0)
     window.document.pin(np.array([1]))
     assert bar.isHidden()
     bar.show_message("That was not a number; type one.")

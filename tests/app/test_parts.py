@@ -12,19 +12,19 @@ from PySide6.QtWidgets import QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import leaked_widgets
-from workbench.app.anchor_set import AnchorSet
+from workbench.app.appearance.style import style_sheet
+from workbench.app.appearance.theme import DARK, LIGHT, Theme, palette_of
 from workbench.app.background import Background, silence_all
 from workbench.app.commands import boundary_vertices
 from workbench.app.docks.convergence_plots import MOST_BINS, thinned
-from workbench.app.error_bar import ErrorBar
-from workbench.app.history import History
-from workbench.app.meters import DragMeter, RateMeter
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.history import History
 from workbench.app.panels.method_form import MethodForm
-from workbench.app.progress_bar import ProgressLine
-from workbench.app.reporter import in_window_words
 from workbench.app.settings import Settings
-from workbench.app.style import style_sheet
-from workbench.app.theme import DARK, LIGHT, Theme, palette_of
+from workbench.app.status.error_bar import ErrorBar
+from workbench.app.status.meters import DragMeter, RateMeter
+from workbench.app.status.progress_bar import ProgressLine
+from workbench.app.status.reporter import in_window_words
 from workbench.app.views.geometry import DisplayFrame
 from workbench.core.method import Parameter
 from workbench.engine.messages import HistoryRow

@@ -10,8 +10,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand
+from workbench.app.appearance.theme import LIGHT
 from workbench.app.main_window import MainWindow
-from workbench.app.theme import LIGHT
 from workbench.app.views import scale_bar
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.quality import simplex_table

@@ -12,8 +12,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from workbench.app.main_window import MainWindow
-from workbench.app.refine_dialog import RefineDialog
-from workbench.app.refine_work import CurveRequest, draw_curves
+from workbench.app.refining.refine_dialog import RefineDialog
+from workbench.app.refining.refine_work import CurveRequest, draw_curves
 from workbench.core.mesh import Mesh
 from workbench.core.refine import Refined, refine
 from workbench.engine.messages import Load
@@ -104,7 +104,7 @@ def test_what_fails_on_the_thread_is_said_in_the_window(
     def fail(*_: object) -> None:
         raise OSError("no space left")
 
-    monkeypatch.setattr("workbench.app.refining.refine_into", fail)
+    monkeypatch.setattr("workbench.app.refining.refining.refine_into", fail)
     dialog.accept_button.click()
     qtbot.waitUntil(window.error_bar.isVisible)
     assert "no space left" in window.error_bar.sentence.text()

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from workbench.app import resolved as module
-from workbench.app.resolved import KEPT, resolved
+from workbench.app.document import resolved as module
+from workbench.app.document.resolved import KEPT, resolved
 from workbench.core.errors import WorkbenchError
 from workbench.core.registry import registry
 

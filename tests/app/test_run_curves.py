@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 
 from tests.app.fake_engine import let_reports_arrive
 from tests.app.loop_worker import LoopWorker, garbage_of_this_thread
-from workbench.app.document import Document
-from workbench.app.engine_bridge import EngineBridge
-from workbench.app.history import COLUMNS, History
-from workbench.app.run_curves import RunCurves, begin_of_run, rows_after
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge
+from workbench.app.document.history import COLUMNS, History
+from workbench.app.document.run_curves import RunCurves, begin_of_run, rows_after
+from workbench.app.document.switches import Switches
 from workbench.app.sessions.undoing import Undoing, chosen_bytes
-from workbench.app.switches import Switches
 from workbench.engine.messages import HistoryRow, Refused
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
+from workbench.app.document.saving import Saver, SaveRequest, write
 from workbench.app.main_window import MainWindow
-from workbench.app.saving import Saver, SaveRequest, write
 from workbench.core.mesh import Mesh
 from workbench.core.registry import registry
 from workbench.core.status import Status

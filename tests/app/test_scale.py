@@ -15,8 +15,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, pixel_of, pixels_of
+from workbench.app.appearance.theme import ANCHOR_SELECTED, LIGHT
 from workbench.app.main_window import MainWindow
-from workbench.app.theme import ANCHOR_SELECTED, LIGHT
 from workbench.app.views.mesh_view import MeshView
 
 SCALE = "QT_SCALE_FACTOR"

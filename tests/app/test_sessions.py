@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -15,16 +11,16 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QCoreApplication, QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QMessageBox, QPushButton
+from PySide6.QtWidgets import QMessageBox
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
 from tests.app.fake_engine import FakeWorker, grid_mesh
 from tests.app.loop_worker import garbage_of_this_thread
-from workbench.app.document import Document
-from workbench.app.engine_bridge import EngineBridge, engine_worker
+from tests.app.session_hand import mesh_file, wait_for_desk
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge, engine_worker
 from workbench.app.main_window import MainWindow
-from workbench.app.sessions.autosave import Autosave
 from workbench.app.sessions.session_desk import Found
 from workbench.app.sessions.undoing import Undoing
 from workbench.cli import main
@@ -32,18 +28,6 @@ from workbench.engine.messages import Refused
 from workbench.engine.session_file import read_session, source_trouble, write_session
 from workbench.session.record import SessionRecord
 from workbench.session.session import Session
-
-
-def mesh_file(folder: Path) -> Path:
-    """A file that the fake engine takes for its grid."""
-    path = folder / "grid.obj"
-    path.write_text("v 0 0 0\n")
-    return path
-
-
-def wait_for_desk(window: MainWindow, qtbot: QtBot) -> None:
-    qtbot.waitUntil(lambda: not window.sessions.desk.is_busy)
-
 
 # ---------------------------------------------------------------------------------------------- undo
 
@@ -392,109 +376,3 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
         np.testing.assert_allclose(case["X"], document.positions, atol=1e-9 * document.mesh.diameter)
     record_again = (tmp_path / "out" / "report.json").read_text()
     assert '"same_energy": true' in record_again
-
-
-# ---------------------------------------------------------------------------------------------- crashes
-
-DRAGGING = """
-import sys, time
-from pathlib import Path
-import numpy as np
-from workbench.app.main import make_application
-
-if __name__ == "__main__":
-    application = make_application()
-    from tests.app.fake_engine import FakeWorker
-    from workbench.app.main_window import MainWindow
-    from workbench.app.sessions import autosave
-    from workbench.app.settings import Settings
-    from workbench.app.theme import ThemeSwitch
-
-    folder = Path(sys.argv[1])
-    autosave.INTERVAL = 300
-    window = MainWindow(ThemeSwitch(application, "light"), Settings(folder / "window.ini"), FakeWorker)
-    window.autosave = autosave.Autosave(window, folder / "recovery")
-    window.start(str(folder / "grid.obj"))
-    window.anchor_files.dock.show()
-    window.autosave.start()
-    document = window.document
-    while document.positions is None:
-        application.processEvents()
-    document.add_anchor(4)
-    begin = time.time()
-    while True:
-        document.move_anchor(4, np.array([time.time() - begin, 0.5]), True)
-        application.processEvents()
-        print(time.time() - begin, flush=True)
-        time.sleep(0.02)
-"""
-
-
-def test_a_window_that_is_killed_in_the_middle_of_a_drag_loses_little_and_the_next_start_offers_it(
-    make_window: WindowMaker, qtbot: QtBot, tmp_path: Path, project_root: Path
-) -> None:
-    mesh_file(tmp_path)
-    child = subprocess.Popen(
-        [sys.executable, "-c", DRAGGING, str(tmp_path)],
-        cwd=project_root,
-        env={**os.environ, "PYTHONPATH": str(project_root)},
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-
-    def kept_places() -> set[float]:
-        """Where the anchor is, in the states that are kept."""
-        states = [read_session(path).session for path in (tmp_path / "recovery").glob("*.dwb")]
-        return {place[0] for state in states for place in state.anchor_targets}
-
-    seen: set[float] = set()
-    assert child.stdout is not None
-    for _ in child.stdout:
-        seen |= kept_places()
-        if len(seen) > 3:  # states of one drag, each in the place of the one before
-            break
-    os.kill(child.pid, signal.SIGKILL)
-    child.wait()
-    child.stdout.close()
-    (kept,) = (tmp_path / "recovery").glob("*.dwb")
-    (place,) = kept_places()
-    assert place >= max(seen), "what was kept last is whole"
-
-    window = make_window()
-    qtbot.waitUntil(lambda: window.document.positions is not None)
-    window.autosave = Autosave(window, tmp_path / "recovery")
-    window.autosave.start()
-    assert window.anchor_files.dock.isVisible(), "panels lie as they did"
-    box = window.findChild(QMessageBox, "recovery")
-    assert box is not None and box.isVisible()
-    next(button for button in box.findChildren(QPushButton) if button.text() == "Recover").click()
-    assert read_session(window.autosave.path).session.anchor_vertices == (4,), "nor is it lost if this window is killed now"
-    qtbot.waitUntil(lambda: 4 in window.document.anchors)
-    assert not kept.exists() and window.isWindowModified()
-
-
-def test_what_is_in_use_is_not_offered_and_an_orderly_end_leaves_the_last_session(
-    make_window: WindowMaker, qtbot: QtBot, tmp_path: Path
-) -> None:
-    window = make_window(source=str(mesh_file(tmp_path)))
-    qtbot.waitUntil(lambda: window.document.positions is not None)
-    window.autosave = Autosave(window, tmp_path)
-    window.autosave.start()
-    window.document.add_anchor(8)
-    window.autosave.keep()
-    wait_for_desk(window, qtbot)
-    assert window.autosave.path.is_file() and window.isWindowModified()
-    other = Autosave(window, tmp_path)
-    other.start()
-    assert window.findChild(QMessageBox, "recovery") is None, "its owner lives"
-    other.end()
-    window.open("bumpy")
-    qtbot.waitUntil(lambda: window.document.kind == "parameterize")
-    wait_for_desk(window, qtbot)
-    assert read_session(tmp_path / "last.dwb").session.anchor_vertices == (8,), "what gave way was not saved"
-    (tmp_path / "last.dwb").unlink()
-    window.undoing.undo()
-    qtbot.waitUntil(lambda: window.document.kind == "plane" and 8 in window.document.anchors)
-    window.close()
-    assert not list(tmp_path.glob("*-*.dwb"))
-    assert read_session(tmp_path / "last.dwb").session.anchor_vertices == (8,)

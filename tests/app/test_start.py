@@ -24,10 +24,10 @@ import os, sys
 os.environ["QT_API"] = "pyside6"
 from workbench.app.main import make_application
 application = make_application()
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
-from workbench.app.theme import ThemeSwitch
+from workbench.app.appearance.theme import ThemeSwitch
 window = MainWindow(ThemeSwitch(application, "light"), Settings(sys.argv[1]), engine_worker)
 window.show()
 while not window.windowHandle().isExposed():

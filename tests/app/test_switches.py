@@ -7,13 +7,13 @@ from PySide6.QtCore import QPointF
 from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import FakeWorker
-from workbench.app import switches as switches_module
 from workbench.app.docks.axis_numbers import distinct_numbers
-from workbench.app.document import Document
-from workbench.app.engine_bridge import EngineBridge
-from workbench.app.history import History
+from workbench.app.document import switches as switches_module
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge
+from workbench.app.document.history import History
+from workbench.app.document.switches import Switches
 from workbench.app.main_window import MainWindow
-from workbench.app.switches import Switches
 from workbench.engine.messages import HistoryRow
 
 

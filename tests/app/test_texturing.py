@@ -17,7 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import WindowMaker, pixels_of
 from tests.app.fake_engine import bumpy_mesh, grid_mesh
-from workbench.app.first_start import why_not_own_start, with_own_start
+from workbench.app.document.first_start import why_not_own_start, with_own_start
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
 from workbench.app.texturing.texturing import Texturing

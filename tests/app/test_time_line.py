@@ -13,8 +13,8 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import grid_mesh
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.document import Document
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
 from workbench.app.main_window import MainWindow
 from workbench.app.timeline import player
 from workbench.app.timeline.comparison import compare

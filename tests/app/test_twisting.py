@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import WindowMaker
 from tests.app.space_hand import turn_by_ring
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.handling.pacing import turned_angle
 from workbench.core.samples import make_sample
 

@@ -14,8 +14,8 @@ from PySide6.QtCore import QCoreApplication
 
 from tests.app.loop_worker import LoopWorker, garbage_of_this_thread
 from tests.conftest import grid
-from workbench.app.document import Document
-from workbench.app.engine_bridge import EngineBridge
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge
 from workbench.app.sessions.session_desk import Found, SessionDesk
 from workbench.app.sessions.undoing import Undoing
 from workbench.engine.messages import Refused

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import solid_mesh
 from workbench.app.main_window import MainWindow
-from workbench.app.quantities import CONFORMAL_FACTOR, LIVE_QUANTITIES
+from workbench.app.quantities.quantities import CONFORMAL_FACTOR, LIVE_QUANTITIES
 from workbench.app.verdict.ranked_places import worst_first
 from workbench.app.verdict.verdict_window import judged, words_of
 from workbench.core.mesh import Mesh

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QApplication, QMenu
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of, pixels_of
-from workbench.app.anchor_tool import DRAG_INTERVAL
+from workbench.app.handling.anchor_tool import DRAG_INTERVAL
 from workbench.app.main_window import MainWindow
 from workbench.app.menus import fill_samples
 from workbench.app.views.mesh_view import MeshView
@@ -345,7 +345,7 @@ def test_the_menu_names_the_samples(window: MainWindow) -> None:
 
 
 def test_a_step_that_lasts_is_named_with_the_way_out(window: MainWindow, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot) -> None:
-    monkeypatch.setattr("workbench.app.reporter.LONG_STEP", 0.0)
+    monkeypatch.setattr("workbench.app.status.reporter.LONG_STEP", 0.0)
     window.document.run()
     qtbot.waitUntil(lambda: "Stop ends it" in window.status.sentence.text())
     window.document.pause()

@@ -15,7 +15,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from tests.app.conftest import Hand, WindowMaker, pixel_of
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 
 
@@ -133,10 +133,10 @@ from PySide6.QtWidgets import QApplication
 from workbench.app.main import make_application
 application = make_application()
 from tests.app.fake_engine import FakeWorker
-from workbench.app.engine_bridge import engine_worker
+from workbench.app.document.engine_bridge import engine_worker
 from workbench.app.main_window import MainWindow
 from workbench.app.settings import Settings
-from workbench.app.theme import ThemeSwitch
+from workbench.app.appearance.theme import ThemeSwitch
 for cycle in range(20):
     # the real engine now and then: starting twenty processes takes longer than the test is worth
     make_worker, source = (engine_worker, "") if cycle % 7 == 3 else (FakeWorker, "grid")

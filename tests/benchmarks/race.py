@@ -18,10 +18,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.benchmarks._screen import screen
+from workbench.app.appearance.theme import LIGHT
 from workbench.app.main import make_application
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.race.race_window import RaceWindow
-from workbench.app.theme import LIGHT
 from workbench.core.samples import make_sample
 from workbench.engine.messages import Run, SetAnchors, SetProblem
 from workbench.engine.race_messages import Entrant, StartRace

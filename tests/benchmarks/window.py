@@ -22,7 +22,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.benchmarks._drag_hands import ScriptedHand, corner_hand, end_hand
-from workbench.app.anchor_set import AnchorSet
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.app.main import make_application
 from workbench.core.samples import make_sample
 
@@ -36,10 +36,10 @@ def measure(size: int, folder: Path, *, is_solid: bool = False, profile: bool = 
     from PySide6.QtCore import QEvent
     from PySide6.QtWidgets import QApplication
 
+    from workbench.app.appearance.theme import ThemeSwitch
     from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
     from workbench.app.settings import Settings
-    from workbench.app.theme import ThemeSwitch
 
     class TimedWindow(MainWindow):
         """Knows how long each frame took: Qt puts the whole window together in one event."""

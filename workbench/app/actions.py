@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QAction, QKeySequence
 
+from workbench.app.appearance.icons import DRAWINGS, icon
+from workbench.app.appearance.theme import Theme
 from workbench.app.exporting.export_kinds import KINDS
-from workbench.app.icons import DRAWINGS, icon
-from workbench.app.theme import Theme
 
 TITLE = "title"
 """Property of an action whose text changes: what it is called in lists that stand for good."""

@@ -16,19 +16,19 @@ from workbench.app.binding.binding import Binding
 from workbench.app.citing.citing import Citing
 from workbench.app.composing.composing import Composing
 from workbench.app.composing.figure_presets import FigurePresets
+from workbench.app.document.saving import FILTERS, SURFACE_FILTERS, Saver, SaveRequest
+from workbench.app.document.switches import name_of_distortion
 from workbench.app.exporting.export_kinds import KINDS
 from workbench.app.exporting.exporting import Exporting
-from workbench.app.file_choice import MESH_FILTERS, ask_file
+from workbench.app.files.file_choice import MESH_FILTERS, ask_file
+from workbench.app.files.new_file import ask_new_file, stem_of
 from workbench.app.filling.filling import Filling
-from workbench.app.help_texts import ABOUT
+from workbench.app.help.help_texts import ABOUT
 from workbench.app.method_tips.chooser_tips import ChooserTips
-from workbench.app.new_file import ask_new_file, stem_of
 from workbench.app.palette.commanding import Commanding
 from workbench.app.race.racing import Racing
-from workbench.app.refining import Refining
-from workbench.app.reporter import source_name
-from workbench.app.saving import FILTERS, SURFACE_FILTERS, Saver, SaveRequest
-from workbench.app.switches import name_of_distortion
+from workbench.app.refining.refining import Refining
+from workbench.app.status.reporter import source_name
 from workbench.app.verdict.judging import Judging
 from workbench.app.verdict.ranked_places import RankedPlaces
 from workbench.core.errors import WorkbenchError

@@ -40,13 +40,13 @@ def run_window(
     from workbench.app.faults.guard import Guard
 
     guard = Guard()
-    from workbench.app.engine_bridge import engine_worker
+    from workbench.app.appearance.theme import ThemeSwitch
+    from workbench.app.document.engine_bridge import engine_worker
     from workbench.app.garbage import GuiGarbage
     from workbench.app.main_window import MainWindow
     from workbench.app.preferences.environment import set_environment
     from workbench.app.preferences.preferences import Preferences
     from workbench.app.settings import Settings
-    from workbench.app.theme import ThemeSwitch
 
     settings = Settings(settings_file)
     if reset:

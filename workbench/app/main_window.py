@@ -10,27 +10,30 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QVBoxLayout, QWidget
 
 from workbench.app.actions import make_actions, set_icons
-from workbench.app.anchor_tool import AnchorTool
 from workbench.app.anchors.anchor_files import AnchorFiles
+from workbench.app.appearance.style import style_sheet
+from workbench.app.appearance.theme import Theme, ThemeSwitch
 from workbench.app.background import silence_all
 from workbench.app.carrying.carried_view import CarriedView
-from workbench.app.colouring import Colouring
+from workbench.app.colouring.colouring import Colouring
 from workbench.app.commands import Commands
 from workbench.app.docks.colour_map_dock import ColourMapDock
 from workbench.app.docks.convergence_dock import ConvergenceDock
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.histogram_dock import HistogramDock
 from workbench.app.docks.tab_bars import TabBars
-from workbench.app.document import Document
+from workbench.app.document.document import Document
+from workbench.app.document.engine_bridge import EngineBridge, WorkerMaker, engine_worker
+from workbench.app.document.history import History
+from workbench.app.document.run_curves import RunCurves
+from workbench.app.document.switches import Switches
 from workbench.app.drawing.drawing_desk import DrawingDesk
-from workbench.app.engine_bridge import EngineBridge, WorkerMaker, engine_worker
-from workbench.app.error_bar import ErrorBar
 from workbench.app.faults.fault_desk import FaultDesk
 from workbench.app.glyphs.glyphs import Glyphs
 from workbench.app.handling.anchor_desk import AnchorDesk
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.handling.handling import Handling
 from workbench.app.help.help_desk import HelpDesk
-from workbench.app.history import History
 from workbench.app.inspector.inspector_dock import InspectorDock
 from workbench.app.late_parts import LateParts
 from workbench.app.layouts.layouts import Layouts
@@ -42,12 +45,9 @@ from workbench.app.panel_turns import PanelTurns
 from workbench.app.panels.control_panel import ControlPanel
 from workbench.app.preferences.preferring import Preferring
 from workbench.app.presenter import Presenter
-from workbench.app.progress_bar import ProgressLine
-from workbench.app.quantities import LIVE_QUANTITIES
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantities import LIVE_QUANTITIES
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.readings.readings import Readings
-from workbench.app.reporter import Reporter
-from workbench.app.run_curves import RunCurves
 from workbench.app.sessions.autosave import Autosave
 from workbench.app.sessions.session_files import SessionFiles
 from workbench.app.sessions.undo_dock import UndoDock
@@ -56,12 +56,12 @@ from workbench.app.settings import Settings
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.app.splitting.pane_grid import PaneGrid
 from workbench.app.splitting.splitting import Splitting
-from workbench.app.status_line import StatusLine
-from workbench.app.style import style_sheet
-from workbench.app.switches import Switches
+from workbench.app.status.error_bar import ErrorBar
+from workbench.app.status.progress_bar import ProgressLine
+from workbench.app.status.reporter import Reporter
+from workbench.app.status.status_line import StatusLine
 from workbench.app.texturing.texture_desk import TextureDesk
 from workbench.app.texturing.texturing import Texturing
-from workbench.app.theme import Theme, ThemeSwitch
 from workbench.app.timeline.time_line import TimeLine
 from workbench.app.view_memory import ViewMemory
 from workbench.app.view_states.view_states import ViewStates

@@ -9,11 +9,11 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu, QToolBar, QWidget
 
-from workbench.app.first_anchors import SAMPLE
+from workbench.app.appearance.theme import Theme, ThemeSwitch
+from workbench.app.document.first_anchors import SAMPLE
 from workbench.app.glyphs.glyph_menu import GlyphMenu
 from workbench.app.mnemonics import settle_menus
-from workbench.app.reporter import source_name
-from workbench.app.theme import Theme, ThemeSwitch
+from workbench.app.status.reporter import source_name
 from workbench.core.samples import sample_label
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.colouring import Colouring
+from workbench.app.colouring.colouring import Colouring
 from workbench.app.docks.colour_map_dock import ColourMapDock
-from workbench.app.document import Document
+from workbench.app.document.document import Document
 from workbench.app.handling.gizmo import gizmo_of
 from workbench.app.one_shot import one_shot
 from workbench.app.panel_turns import SOON, PanelTurns

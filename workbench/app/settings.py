@@ -22,9 +22,7 @@ class Settings:
         self.recent_count = RECENT_COUNT
         """Files and sessions that are listed."""
         if path is None:
-            self._store = QSettings(
-                QSettings.Format.IniFormat, QSettings.Scope.UserScope, "distortion-workbench", "window"
-            )
+            self._store = QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "distortion-workbench", "window")
         else:
             self._store = QSettings(str(path), QSettings.Format.IniFormat)
 

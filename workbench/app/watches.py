@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 from workbench.core.measure import Measure
 from workbench.engine.messages import Watch
 

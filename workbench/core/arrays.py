@@ -17,12 +17,7 @@ Points = NDArray[np.floating[Any]]
 def frozen(values: ArrayLike, dtype: type = np.float64) -> NDArray[Any]:
     """Read-only, C-contiguous copy of `values`; an array that is frozen already is returned as it is."""
     array = np.asarray(values)
-    if (
-        array.dtype == dtype
-        and array.flags.c_contiguous
-        and not array.flags.writeable
-        and array.base is None
-    ):
+    if array.dtype == dtype and array.flags.c_contiguous and not array.flags.writeable and array.base is None:
         return array
     array = np.array(values, dtype=dtype, order="C", copy=True)
     array.flags.writeable = False

@@ -79,7 +79,5 @@ def _exact_sign(points: list[Floats]) -> int:
         value = edges[0][0] * edges[1][1] - edges[0][1] * edges[1][0]
     else:
         u, v, w = edges
-        value = (
-            u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
-        )
+        value = u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) + u[2] * (v[0] * w[1] - v[1] * w[0])
     return (value > 0) - (value < 0)

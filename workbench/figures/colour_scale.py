@@ -27,9 +27,7 @@ LOWEST = 1e-3
 """A scale about a centre reaches no further below it than to this part of it."""
 
 
-def colour_scale(
-    values: Floats, limits: tuple[float, float] | None = None, logarithmic: bool | None = None
-) -> ScalarMappable:
+def colour_scale(values: Floats, limits: tuple[float, float] | None = None, logarithmic: bool | None = None) -> ScalarMappable:
     """From the least of finite values (k,) to all but the worst hundredth, or between `limits`.
 
     Where nothing is said of `logarithmic`, it is so where it spans much. Where nearly all are at the least, the worst are

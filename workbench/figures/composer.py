@@ -261,15 +261,11 @@ class _Composer:
     @staticmethod
     def _axes(figure: Figure, layout: PageLayout, box: Box) -> Axes:
         width, height = layout.width, layout.height
-        axes = figure.add_axes(
-            (box.left / width, 1 - (box.top + box.height) / height, box.width / width, box.height / height)
-        )
+        axes = figure.add_axes((box.left / width, 1 - (box.top + box.height) / height, box.width / width, box.height / height))
         axes.patch.set_alpha(0.0)
         return axes
 
-    def _write_caption(
-        self, figure: Figure, layout: PageLayout, place: Place, letter: str, words: str, fitted: float
-    ) -> None:
+    def _write_caption(self, figure: Figure, layout: PageLayout, place: Place, letter: str, words: str, fitted: float) -> None:
         size = self.recipe.page.font_size
         heading = place.inside.top - place.whole.top - 0.25 * LINE * size * MM_OF_POINT
         y = 1 - (place.whole.top + 0.5 * heading) / layout.height

@@ -110,8 +110,6 @@ def make_maps(
     return found
 
 
-
-
 def _map_of_file(choice: MapChoice, opened: OpenedSource) -> FigureMap:
     positions = map_from_file(choice.target, opened.mesh, opened.kind)
     positions = adjusted_start(opened.mesh, opened.kind, positions, match_area=False)

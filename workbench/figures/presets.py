@@ -72,9 +72,7 @@ def _session(given: Given, sample: str) -> Session:
 
 
 def _targets(given: Given, session: Session) -> tuple[MapChoice, ...]:
-    return tuple(
-        MapChoice(f"map-{i + 1}", session, target=file, label=label) for i, (label, file) in enumerate(given.targets)
-    )
+    return tuple(MapChoice(f"map-{i + 1}", session, target=file, label=label) for i, (label, file) in enumerate(given.targets))
 
 
 def _distribution(given: Given) -> Recipe:
@@ -87,8 +85,7 @@ def _distribution(given: Given) -> Recipe:
         name = choice.title if given.targets else "source"
         panels.append(Panel("source", (choice.name,), CHEQUERED, caption=name))
         panels += [
-            Panel("map", (choice.name,), measure, scale=measure, frame="map", bar=is_last, caption=" ")
-            for measure in MEASURES
+            Panel("map", (choice.name,), measure, scale=measure, frame="map", bar=is_last, caption=" ") for measure in MEASURES
         ]
     return Recipe(Page(columns=1 + len(MEASURES)), maps, tuple(panels))
 

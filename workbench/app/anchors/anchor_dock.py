@@ -11,15 +11,15 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QGuiApplication, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_edits import edited, pasted
 from workbench.app.anchors.anchor_table import AnchorTable
 from workbench.app.anchors.anchor_table_model import AnchorTableModel
 from workbench.app.background import Backgrounds
 from workbench.app.docks.dock_title import DockTitle
-from workbench.app.document import Document
-from workbench.app.error_bar import ErrorBar
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
 from workbench.app.one_shot import one_shot
+from workbench.app.status.error_bar import ErrorBar
 from workbench.core.arrays import Integers
 from workbench.core.errors import WorkbenchError
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.app.anchor_set import AnchorSet
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.core.arrays import Integers
 from workbench.core.errors import WorkbenchError
 from workbench.io.anchor_rows import (

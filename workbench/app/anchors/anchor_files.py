@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMessageBox
 
-from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_dock import AnchorDock
 from workbench.app.anchors.anchor_edits import set_of, table_of
 from workbench.app.background import Backgrounds
-from workbench.app.file_choice import ask_file
-from workbench.app.new_file import ask_new_file, stem_of
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.files.file_choice import ask_file
+from workbench.app.files.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.io.anchor_rows import AnchorTable
 from workbench.io.anchors import read_anchors, vertices_after_fixes, vertices_before_fixes, write_anchors

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
 
-from workbench.app.anchor_set import AnchorSet
 from workbench.app.anchors.anchor_columns import Column, columns_for
 from workbench.app.anchors.anchor_edits import table_of
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.core.arrays import Floats, Integers
 from workbench.io.anchor_rows import AXES, AnchorTable, columns_of, text_of
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from workbench.app.binding.equation_dialog import FILTER, EquationDialog
-from workbench.app.new_file import endings_of
+from workbench.app.files.new_file import endings_of
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow

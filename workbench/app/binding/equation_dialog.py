@@ -9,10 +9,10 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QFontDatabase, QShowEvent
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
-from workbench.app.document import Document
-from workbench.app.file_choice import ask_file, last_folder
-from workbench.app.file_drops import FileDrops
-from workbench.app.new_file import ask_new_file
+from workbench.app.document.document import Document
+from workbench.app.files.file_choice import ask_file, last_folder
+from workbench.app.files.file_drops import FileDrops
+from workbench.app.files.new_file import ask_new_file
 from workbench.core.constraints import LinearConstraints
 from workbench.core.errors import WorkbenchError
 from workbench.core.linear_equations import linear_constraints, read_equations

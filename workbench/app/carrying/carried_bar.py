@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.colour_legend import ColourLegend
-from workbench.app.colour_range import ColourRange
-from workbench.app.quantities import Quantity
-from workbench.app.status_line import ElidedLabel
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
+from workbench.app.colouring.colour_legend import ColourLegend
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.quantities.quantities import Quantity
+from workbench.app.status.status_line import ElidedLabel
 
 STEPS = 100
 FIRST_OPACITY = 0.25

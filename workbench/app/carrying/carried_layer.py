@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.colour_range import ColourRange
+from workbench.app.colouring.colour_range import ColourRange
 from workbench.app.views.actors import actor_of, cells, mapper_of
 from workbench.app.views.colours import table_of
 from workbench.app.views.mesh_view import MeshView

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 
 CARRIED_QUANTITIES: tuple[Quantity, ...] = (
     Quantity("symmetric-dirichlet", "Symmetric Dirichlet", "(32)", "σ₁² + σ₂² + σ₁⁻² + σ₂⁻²", 4.0, least_span=0.01),

@@ -13,8 +13,8 @@ from workbench.app.background import Background
 from workbench.app.carrying.carried_bar import FIRST_OPACITY, CarriedBar
 from workbench.app.carrying.carried_layer import CarriedLayer
 from workbench.app.carrying.carried_quantities import CARRIED_QUANTITIES
-from workbench.app.colour_range import ColourRange
-from workbench.app.document import Document
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.document.document import Document
 from workbench.app.splitting.split_pane import SplitPane
 from workbench.app.views.pane import ViewPane
 from workbench.core.arrays import Floats

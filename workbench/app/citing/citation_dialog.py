@@ -9,7 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase, QGuiApplication
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QPlainTextEdit, QVBoxLayout, QWidget
 
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.new_file import ask_new_file
 from workbench.core.bibliography import Cited, bibtex
 
 EXPLANATION = (

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt
 
-from workbench.app.new_file import stem_of
+from workbench.app.files.new_file import stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.io.atomic import write_text
 

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QDialogButtonBox, QDoubleSpinBox, QFormLayout, QLi
 
 from workbench.app.composing.offers import Offer
 from workbench.app.composing.preview_dialog import PreviewDialog
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.new_file import ask_new_file
 from workbench.figures.recipe import BACKGROUNDS, Page, Panel
 
 FILTERS = "PDF (*.pdf);;SVG (*.svg);;PNG (*.png);;Recipe (*.json)"

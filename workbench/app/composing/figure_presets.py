@@ -15,8 +15,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu
 
 from workbench.app.background import Backgrounds
-from workbench.app.file_choice import ask_folder
-from workbench.app.saving import SaveRequest, write
+from workbench.app.document.saving import SaveRequest, write
+from workbench.app.files.file_choice import ask_folder
 from workbench.core.errors import WorkbenchError
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from workbench.app.composing.figure_work import NAME, Subject
-from workbench.app.history import COLUMNS
-from workbench.app.new_file import stem_of
+from workbench.app.document.history import COLUMNS
+from workbench.app.files.new_file import stem_of
 from workbench.app.sessions.restoring import with_anchors
 from workbench.app.views.textures import PATTERNS, Pattern
 from workbench.core.history_row import HistoryRow
@@ -17,8 +17,8 @@ from workbench.figures.recipe import CHEQUERED, DEFAULT_MEASURE, NO_GLYPHS, PICT
 from workbench.session.session import Session
 
 if TYPE_CHECKING:
-    from workbench.app.colour_range import ColourRange
-    from workbench.app.history import History
+    from workbench.app.colouring.colour_range import ColourRange
+    from workbench.app.document.history import History
     from workbench.app.main_window import MainWindow
     from workbench.app.views.mesh_view import MeshView
     from workbench.app.views.pane import ViewPane

@@ -9,10 +9,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.dissection.energy_plot import EnergyPlot
-from workbench.app.document import Document
-from workbench.app.navigation_tool import NavigationTool
-from workbench.app.theme import Theme
+from workbench.app.document.document import Document
+from workbench.app.handling.navigation_tool import NavigationTool
 from workbench.app.views.arrow_layer import ArrowLayer
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView

@@ -10,8 +10,8 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import LIMITING, Theme
 from workbench.app.docks.plots import calm, paint_axes
-from workbench.app.theme import LIMITING, Theme
 from workbench.core.dissection import Dissection
 
 REACH = 1.1

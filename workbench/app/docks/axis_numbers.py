@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from workbench.app.range_fit import rounded_up
+from workbench.app.colouring.range_fit import rounded_up
 
 
 def decade_marks(low: float, high: float, most: int) -> list[float]:

@@ -6,7 +6,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 
 SLACK = 3.0
 """Pixels that the hand may move in a click."""

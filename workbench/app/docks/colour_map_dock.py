@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from workbench.app.colour_legend import ColourLegend
+from workbench.app.appearance.theme import Theme
+from workbench.app.colouring.colour_legend import ColourLegend
 from workbench.app.docks.quantity_dock import QuantityDock
-from workbench.app.navigation_tool import NavigationTool
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.theme import Theme
+from workbench.app.handling.navigation_tool import NavigationTool
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.engine.messages import Snapshot

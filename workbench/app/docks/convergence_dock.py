@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDockWidget, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.dock_title import DockTitle
 from workbench.app.docks.plot_place import PlotPlace
-from workbench.app.history import History
-from workbench.app.switches import Switches
-from workbench.app.theme import Theme
+from workbench.app.document.history import History
+from workbench.app.document.switches import Switches
 
 if TYPE_CHECKING:
     from workbench.app.docks.convergence_plots import ConvergencePlots

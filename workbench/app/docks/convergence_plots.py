@@ -8,10 +8,10 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.docks.switch_marks import SwitchMarks
-from workbench.app.switches import Switch
-from workbench.app.theme import Theme
+from workbench.app.document.switches import Switch
 from workbench.core.arrays import Floats
 
 MOST_BINS = 300

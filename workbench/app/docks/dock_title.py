@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QDockWidget, QHBoxLayout, QToolButton, QWidget
 
-from workbench.app.icons import drawn
+from workbench.app.appearance.icons import drawn
 
 
 class DockTitle(QWidget):

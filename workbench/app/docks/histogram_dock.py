@@ -10,13 +10,13 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
+from workbench.app.appearance.theme import Theme
+from workbench.app.colouring.range_menu import fill_range_menu
 from workbench.app.docks.plot_place import PlotPlace
 from workbench.app.docks.quantity_dock import QuantityDock
-from workbench.app.quantities import CONFORMAL_FACTOR
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.range_menu import fill_range_menu
+from workbench.app.quantities.quantities import CONFORMAL_FACTOR
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats, Integers
 from workbench.core.histogram import bin_edges, bin_of, weight_in_bins
 from workbench.core.mesh import Mesh

@@ -10,9 +10,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import BRUSH, Theme
 from workbench.app.docks.bin_brush import BinBrush
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
-from workbench.app.theme import BRUSH, Theme
 from workbench.core.arrays import Floats
 
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 
 
 class PlotPlace(QWidget):

@@ -8,8 +8,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.axis_numbers import decade_marks, distinct_numbers
-from workbench.app.theme import Theme
 
 OVERHANG = 16
 """Pixels by which the numbers of an axis may stand out beyond its ends."""

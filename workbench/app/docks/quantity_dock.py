@@ -7,10 +7,10 @@ from typing import Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDockWidget, QWidget
 
-from workbench.app.colour_range import ColourRange
+from workbench.app.colouring.colour_range import ColourRange
 from workbench.app.docks.dock_title import DockTitle
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.quantity_chooser import QuantityChooser
+from workbench.app.quantities.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_chooser import QuantityChooser
 from workbench.engine.messages import Snapshot
 
 

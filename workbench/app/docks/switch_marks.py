@@ -9,8 +9,8 @@ from PySide6.QtCore import QEvent, QObject, QPointF, Qt
 from PySide6.QtGui import QHelpEvent
 from PySide6.QtWidgets import QToolTip
 
-from workbench.app.switches import Switch
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
+from workbench.app.document.switches import Switch
 
 MOST = 40
 """Lines in a plot; of more switches the newest are shown."""

@@ -17,7 +17,7 @@ from workbench.app.composing.figure_work import Order, save
 from workbench.app.composing.offers import offers_of, rows_of, subject_of
 from workbench.app.exporting.export_kinds import KINDS, MAP_KINDS, OTHER_KINDS, PICTURE_KINDS, ExportKind
 from workbench.app.exporting.session_pictures import png_of, session_binder
-from workbench.app.new_file import ask_new_file, stem_of
+from workbench.app.files.new_file import ask_new_file, stem_of
 from workbench.core.errors import WorkbenchError
 from workbench.core.unit_square import into_unit_square
 from workbench.figures.recipe import Page

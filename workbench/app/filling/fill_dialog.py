@@ -20,11 +20,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from workbench.app.file_choice import ask_file
-from workbench.app.file_drops import FileDrops
+from workbench.app.files.file_choice import ask_file
+from workbench.app.files.file_drops import FileDrops
+from workbench.app.files.new_file import ask_new_file, stem_of
 from workbench.app.filling.fill_work import FillRequest, check_request
-from workbench.app.new_file import ask_new_file, stem_of
-from workbench.app.refine_work import free_name
+from workbench.app.refining.refine_work import free_name
 from workbench.core.errors import WorkbenchError
 
 SURFACES = "Surfaces (*.obj *.off *.ply *.stl *.npz *.mat *.vtk *.vtu);;All files (*)"

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.background import Background
 from workbench.app.texturing.texturing import number_within
-from workbench.app.theme import Theme
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.glyph_layer import GlyphLayer
 from workbench.app.views.mesh_view import MeshView

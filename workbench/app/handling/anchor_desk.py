@@ -8,8 +8,8 @@ import time
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.document import Document
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
 from workbench.app.handling.company import Company, Gathered
 from workbench.app.handling.motion import Motion
 from workbench.app.handling.pacing import TurnPacer

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QMenu
 
-from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.handling.patches import Patches
 from workbench.app.handling.place_dialog import PlaceDialog
 from workbench.app.handling.rigid_motion import RigidMotion

@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.document import Document
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
 from workbench.app.handling.reflection import Reflection, Twins, fitted_reflection, found_plane, planes_of_box
 from workbench.app.handling.train import Train, falloff
 from workbench.core.arrays import Floats, Integers

@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, QTimer
 from PySide6.QtGui import QActionGroup
 from PySide6.QtWidgets import QMenu
 
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.anchor_tool import AnchorTool
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.handling.company import Customs
 from workbench.app.handling.reflection import Reflection
 from workbench.app.views.geometry import Geometry

@@ -9,8 +9,8 @@ import numpy as np
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMenu
 
-from workbench.app.anchor_tool import AnchorTool
 from workbench.app.handling.anchor_menu import AnchorMenu
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.handling.area_drawing import AreaMode
 from workbench.app.handling.company_controls import CompanyControls
 from workbench.app.handling.pinning import Pinning

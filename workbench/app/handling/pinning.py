@@ -9,7 +9,7 @@ import scipy
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 
-from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.handling.key_trap import KeyTrap
 from workbench.app.views.sketch import Sketch
 from workbench.core.arrays import Integers

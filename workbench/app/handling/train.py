@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from workbench.app.anchor_set import AnchorSet
+from workbench.app.document.anchor_set import AnchorSet
 from workbench.app.handling.motion import Motion
 from workbench.app.handling.reflection import Reflection
 from workbench.core.arrays import Floats, Integers

@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.help.chapters import Chapter, read_chapters, readme_folder
 from workbench.app.help.page import HelpPage
-from workbench.app.theme import Theme
 
 NUMBER = Qt.ItemDataRole.UserRole
 

@@ -22,8 +22,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QTextBrowser, QTextEdit, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.help.chapters import Chapter, with_fences
-from workbench.app.theme import Theme
 
 WIDEST_PICTURE = 900
 OPENED = ("http", "https")

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QButtonGroup, QGridLayout, QLabel, QSizePolicy, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.theme import LIGHT, Theme
+from workbench.app.appearance.theme import LIGHT, Theme
 
 if TYPE_CHECKING:
     from workbench.core.analysis import Analysis, Property

@@ -5,7 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QTabWidget, QVBoxLayout, QWidget
 
-from workbench.app.document import Document
+from workbench.app.appearance.theme import Theme
+from workbench.app.document.document import Document
 from workbench.app.inspector.curves_page import CurvesPage
 from workbench.app.inspector.formula_page import FormulaPage
 from workbench.app.inspector.mirror_page import MirrorPage
@@ -15,7 +16,6 @@ from workbench.app.inspector.star_page import StarPage
 from workbench.app.inspector.subject import Subject
 from workbench.app.panels.distortion_box import title_of
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import Theme
 
 
 class Heading(Page):

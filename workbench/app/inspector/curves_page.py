@@ -11,11 +11,11 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QIcon, QPixmap
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.inspector.latest import Latest
 from workbench.app.inspector.page import Page
 from workbench.app.inspector.subject import Key, Subject
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError

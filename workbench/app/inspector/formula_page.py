@@ -10,12 +10,12 @@ from typing import Any
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.inspector.badges import Badges
 from workbench.app.inspector.formula_picture import FormulaPicture
 from workbench.app.inspector.latest import Latest
 from workbench.app.inspector.page import Page
 from workbench.app.inspector.subject import Key, Subject
-from workbench.app.theme import Theme
 from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
 from workbench.core.formula import names_in_formula

@@ -10,8 +10,8 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from workbench.app.appearance.theme import LIGHT, Theme
 from workbench.app.inspector.latest import Latest
-from workbench.app.theme import LIGHT, Theme
 
 SIZES = (17.0, 14.0, 12.0, 10.0, 8.5, 7.0)
 """Points, the largest that fits the width is taken."""

@@ -9,13 +9,13 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QKeySequence, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
 
+from workbench.app.appearance.icons import icon
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.dock_title import DockTitle
-from workbench.app.document import Document
-from workbench.app.icons import icon
+from workbench.app.document.document import Document
 from workbench.app.inspector.hover_brush import HoverBrush
 from workbench.app.inspector.subject import Subject
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import Theme
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.registry import Registry
 

@@ -9,13 +9,13 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSlider, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.axis_numbers import short_number
 from workbench.app.inspector.path_page import PathPage
 from workbench.app.inspector.path_plot import PathPlot
 from workbench.app.inspector.plane_field import colour_ends, scale_shares
 from workbench.app.inspector.simplex_picture import Scene, framed
 from workbench.app.inspector.subject import Subject
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 
 ENDS = {"t from 0 to 1": (0.0, 1.0), "t from -1 to 2": (-1.0, 2.0)}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import LIGHT, Theme
 from workbench.app.inspector.subject import Subject
-from workbench.app.theme import LIGHT, Theme
 
 
 class Page(QWidget):

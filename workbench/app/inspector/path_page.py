@@ -7,12 +7,12 @@ from typing import Any
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.inspector.latest import Latest
 from workbench.app.inspector.page import Page
 from workbench.app.inspector.path_plot import PathPlot
 from workbench.app.inspector.simplex_picture import SimplexPicture
 from workbench.app.inspector.subject import Key, Subject
-from workbench.app.theme import Theme
 from workbench.core.errors import WorkbenchError
 
 

@@ -8,8 +8,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import LIGHT, Theme
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
-from workbench.app.theme import LIGHT, Theme
 from workbench.core.arrays import Floats
 
 DECADES = 6.0

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from workbench.app.colouring.range_fit import rounded_up
 from workbench.app.inspector.level_lines import level_lines
-from workbench.app.range_fit import rounded_up
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
 

@@ -7,8 +7,9 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.axis_numbers import short_number
-from workbench.app.document import Document
+from workbench.app.document.document import Document
 from workbench.app.inspector.gestures import inside
 from workbench.app.inspector.latest import Latest
 from workbench.app.inspector.page import Page
@@ -16,7 +17,6 @@ from workbench.app.inspector.plane_field import PlaneField, PlaneStyle, sample_p
 from workbench.app.inspector.plane_plot import PlanePlot
 from workbench.app.inspector.subject import Key, Subject
 from workbench.app.simplex_brush import SimplexBrush
-from workbench.app.theme import Theme
 from workbench.core.arrays import Booleans, Floats, Integers
 from workbench.core.distortion import Distortion
 

@@ -11,11 +11,11 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import BRUSH, BRUSH_CASING, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.inspector.gestures import ChoosingBox
 from workbench.app.inspector.plane_field import PlaneField, Region
 from workbench.app.inspector.point_cloud import PointCloud
-from workbench.app.theme import BRUSH, BRUSH_CASING, INVERTED, INVERTED_OUTLINE, Theme
 from workbench.app.views.colours import distortion_colours
 from workbench.core.arrays import Floats
 

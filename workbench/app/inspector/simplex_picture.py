@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from workbench.app.theme import ANCHOR, ANCHOR_RIM, INVERTED, LIGHT, Theme
+from workbench.app.appearance.theme import ANCHOR, ANCHOR_RIM, INVERTED, LIGHT, Theme
 from workbench.app.views.colours import distortion_colours
 from workbench.core.arrays import Booleans, Floats, Integers
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.axis_numbers import short_number
 from workbench.app.inspector.path_page import PathPage
 from workbench.app.inspector.path_plot import PathPlot
 from workbench.app.inspector.plane_field import colour_ends, scale_shares
 from workbench.app.inspector.simplex_picture import Scene, framed
 from workbench.app.inspector.subject import Subject
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 from workbench.core.distortion import Distortion
 

@@ -24,8 +24,8 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.docks.dock_title import DockTitle
-from workbench.app.file_choice import last_folder
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.file_choice import last_folder
+from workbench.app.files.new_file import ask_new_file
 from workbench.app.notices.notice import Notice
 from workbench.app.notices.notice_list import NoticeList
 from workbench.core.errors import WorkbenchError

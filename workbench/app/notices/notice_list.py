@@ -7,8 +7,8 @@ from typing import Any
 from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
 from PySide6.QtGui import QColor
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.notices.notice import LEVELS, Notice
-from workbench.app.theme import Theme
 
 MOST = 2000
 """Notices; the oldest make room."""

@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from workbench.app.document import Document
-from workbench.app.file_choice import MAP_FILTERS, ask_file
-from workbench.app.first_start import has_own_map, start_in_force
+from workbench.app.document.document import Document
+from workbench.app.document.first_start import has_own_map, start_in_force
+from workbench.app.files.file_choice import MAP_FILTERS, ask_file
 from workbench.app.panels.distortion_box import DistortionBox
 from workbench.app.panels.method_box import MethodBox
 from workbench.core.registry import Registry, registry

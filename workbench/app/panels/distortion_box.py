@@ -8,11 +8,11 @@ from typing import Any
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QLabel, QVBoxLayout, QWidget
 
+from workbench.app.document.resolved import resolved
 from workbench.app.panels.formula_edit import FormulaEdit
 from workbench.app.panels.formula_tools import FormulaTools
 from workbench.app.panels.parameter_sliders import ParameterSliders
 from workbench.app.panels.value_pacer import ValuePacer
-from workbench.app.resolved import resolved
 from workbench.core.distortion import Distortion, looks_like_id
 from workbench.core.errors import FormulaError, WorkbenchError
 from workbench.core.formula import FUNCTIONS

@@ -10,10 +10,10 @@ from PySide6.QtCore import QEvent, QObject, Qt, QTimer
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication, QToolBar
 
+from workbench.app.appearance.style import style_sheet
 from workbench.app.preferences.catalogue import BY_NAME
 from workbench.app.preferences.environment import set_environment
 from workbench.app.preferences.preferences import Preferences
-from workbench.app.style import style_sheet
 from workbench.app.views import drawing_style
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QWidget
 
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.quantity_chooser import QuantityChooser
+from workbench.app.quantities.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_chooser import QuantityChooser
 from workbench.app.race.race_model import RaceModel
 
 MODES = {

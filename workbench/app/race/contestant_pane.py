@@ -9,11 +9,11 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPainter, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMenu, QToolButton, QVBoxLayout, QWidget
 
-from workbench.app.navigation_tool import NavigationTool
+from workbench.app.appearance.theme import Theme
+from workbench.app.handling.navigation_tool import NavigationTool
 from workbench.app.race.race_record import RaceRecord
 from workbench.app.signatures.map_list import COLOURS
-from workbench.app.status_line import ElidedLabel
-from workbench.app.theme import Theme
+from workbench.app.status.status_line import ElidedLabel
 from workbench.app.views.geometry import Geometry
 from workbench.app.views.mesh_view import MeshView
 from workbench.core.arrays import Floats

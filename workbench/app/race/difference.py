@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 from workbench.core.arrays import Floats, Integers
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import Signal
 
-from workbench.app.engine_bridge import ReportBridge, Worker, WorkerMaker
+from workbench.app.document.engine_bridge import ReportBridge, Worker, WorkerMaker
 from workbench.engine.messages import Failure, Progress, Refused, Report
 from workbench.engine.race_messages import RaceEnded, RaceFrame, RacePhase, RaceStarted, TablesSaved
 

@@ -7,9 +7,9 @@ from typing import Any, Literal
 import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from workbench.app.colour_range import ColourRange
-from workbench.app.quantities import Quantity
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.quantities.quantities import Quantity
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.race.difference import aligned, difference_to, displacement_from, displacements
 from workbench.app.race.race_model import RaceModel
 

@@ -9,14 +9,14 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.convergence_plots import thinned
 from workbench.app.docks.plots import LogarithmicAxis, calm, paint_axes
 from workbench.app.docks.switch_marks import SwitchMarks
+from workbench.app.document.switches import Switch
 from workbench.app.race.contestant_pane import colour_of
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.race_record import relative_errors
-from workbench.app.switches import Switch
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 from workbench.engine.race_messages import Axis
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.engine_bridge import WorkerMaker
-from workbench.app.quantities import Quantity
+from workbench.app.document.engine_bridge import WorkerMaker
+from workbench.app.quantities.quantities import Quantity
 from workbench.app.race.race_bridge import RaceBridge, race_worker
 from workbench.app.race.race_record import RaceRecord
 from workbench.core.arrays import Floats

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from workbench.app.history import History
+from workbench.app.document.history import History
 from workbench.core.arrays import Floats
 from workbench.core.mesh import Mesh
 from workbench.core.problem import ANCHOR_TOLERANCE

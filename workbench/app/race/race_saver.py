@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.background import Background
-from workbench.app.file_choice import ask_folder
+from workbench.app.files.file_choice import ask_folder
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.race_record import RaceRecord, relative_errors
 from workbench.core.errors import WorkbenchError

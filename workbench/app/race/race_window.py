@@ -6,14 +6,15 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction, QCloseEvent, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QSplitter, QToolBar, QVBoxLayout, QWidget
 
+from workbench.app.appearance.icons import icon
+from workbench.app.appearance.style import style_sheet
+from workbench.app.appearance.theme import Theme
 from workbench.app.background import silence_all
-from workbench.app.colour_legend import ColourLegend
-from workbench.app.engine_bridge import WorkerMaker
-from workbench.app.error_bar import ErrorBar
-from workbench.app.icons import icon
+from workbench.app.colouring.colour_legend import ColourLegend
+from workbench.app.document.engine_bridge import WorkerMaker
 from workbench.app.notices.floating_column import FloatingColumn
 from workbench.app.notices.noticing import tell_logger
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.race.compare_bar import CompareBar
 from workbench.app.race.race_bridge import race_worker
 from workbench.app.race.race_colours import RaceColours
@@ -23,9 +24,8 @@ from workbench.app.race.race_record import verdict
 from workbench.app.race.race_saver import RaceSaver
 from workbench.app.race.timeline import Timeline
 from workbench.app.race.view_grid import ViewGrid
-from workbench.app.status_line import ElidedLabel
-from workbench.app.style import style_sheet
-from workbench.app.theme import Theme
+from workbench.app.status.error_bar import ErrorBar
+from workbench.app.status.status_line import ElidedLabel
 from workbench.engine.race_messages import StartRace
 
 ACTIONS = (

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject
 
 from workbench.app.background import Background
-from workbench.app.orders import held_anchors
-from workbench.app.reporter import source_name
+from workbench.app.document.orders import held_anchors
+from workbench.app.status.reporter import source_name
 from workbench.engine.messages import Reset, Run, SetAnchors, SetProblem
 from workbench.engine.race_messages import StartRace, StartWish
 

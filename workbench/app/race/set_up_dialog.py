@@ -28,8 +28,8 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.background import Background
-from workbench.app.file_choice import MAP_FILTERS, ask_files
-from workbench.app.file_drops import FileDrops
+from workbench.app.files.file_choice import MAP_FILTERS, ask_files
+from workbench.app.files.file_drops import FileDrops
 from workbench.app.panels.method_form import MethodForm
 from workbench.app.race.contestant_pane import FAILED, swatch_of
 from workbench.app.race.draft import MOST, Draft, free_label, misfit, what_is_wrong

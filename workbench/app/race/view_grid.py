@@ -7,12 +7,12 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.background import Background
 from workbench.app.race.contestant_pane import ContestantPane
 from workbench.app.race.race_colours import RaceColours
 from workbench.app.race.race_model import RaceModel
 from workbench.app.race.view_turns import ViewTurns
-from workbench.app.theme import Theme
 from workbench.app.views.camera import axes_for_solid
 from workbench.app.views.flat_picture import compile_pictures
 from workbench.app.views.geometry import Geometry

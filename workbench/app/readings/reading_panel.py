@@ -6,8 +6,8 @@ from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import LIGHT, Theme
 from workbench.app.readings.reading_text import ReadingText
-from workbench.app.theme import LIGHT, Theme
 
 OFFSET = 18
 """Pixels between pointer and panel."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QPoint, Qt, QTimer
 from PySide6.QtGui import QGuiApplication, QMouseEvent
 
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 from workbench.app.readings.reading_panel import ReadingPanel
 from workbench.app.readings.reading_text import words_of
 from workbench.app.splitting.leaf import Leaf

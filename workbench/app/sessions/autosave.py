@@ -14,8 +14,8 @@ from platformdirs import user_data_path
 from PySide6.QtCore import QLockFile, QObject, Qt, QTimer
 from PySide6.QtWidgets import QMessageBox
 
-from workbench.app.reporter import source_name
 from workbench.app.sessions.session_desk import Found
+from workbench.app.status.reporter import source_name
 from workbench.core.errors import WorkbenchError
 from workbench.engine.session_file import ENDING, read_session, source_trouble
 
@@ -72,8 +72,12 @@ class Autosave(QObject):
             self._folder.mkdir(parents=True, exist_ok=True)
             self.offer()
             self._lock = _locked(self.path)
-            if self._is_wanted:
-                self._timer.start()
+        if self._lock is None:
+            self._window.error_bar.show_message(
+                f"Work is not kept against a crash: the folder {self._folder} cannot be written. Save often."
+            )
+        elif self._is_wanted:
+            self._timer.start()
 
     def set_interval(self, seconds: int) -> None:
         """Look every so many seconds whether there is something to keep; 0: never."""
@@ -138,21 +142,25 @@ class Autosave(QObject):
 
     def offer(self) -> None:
         """Ask what is to be done with the newest state that a window left behind; older ones stay for the next starts."""
-        for path in sorted(self._folder.glob(f"*-*{ENDING}"), reverse=True):
+        for path in sorted(self._folder.glob(f"[!.]*-*{ENDING}"), reverse=True):  # a dot begins what was not written to its end
             lock = _locked(path)
-            if lock is not None:
-                self._offered.append(Left(path, lock))
-                self._ask(self._offered[-1])
+            if lock is None:
+                continue
+            for torn in self._folder.glob(f".{path.stem}*"):
+                torn.unlink(missing_ok=True)
+            if self._ask(Left(path, lock)):
                 return
 
-    def _ask(self, left: Left) -> None:
+    def _ask(self, left: Left) -> bool:
+        """Whether there was something to ask about."""
         try:
             record = read_session(left.path)
             count = len(record.session.anchor_vertices)
             words = f"{source_name(record.session.source)}, {count} anchor{'s' * (count != 1)}"
         except WorkbenchError:
             left.discard()
-            return
+            return False
+        self._offered.append(left)
         found = Found(str(left.path), record, source_trouble(record), keeps_path=False)
         box = QMessageBox(self._window)
         box.setObjectName("recovery")
@@ -173,6 +181,7 @@ class Autosave(QObject):
         discard.clicked.connect(left.discard)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
+        return True
 
     def _recover(self, left: Left, found: Found) -> None:
         """Go to it; until this window has kept a state of its own, that one is its own."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
 
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.history import Curves
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.history import Curves
 from workbench.core.arrays import Floats
 from workbench.session.session import ANCHORS, Session
 

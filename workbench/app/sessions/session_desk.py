@@ -10,7 +10,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 
 from workbench.app.background import Background
-from workbench.app.document import Document
+from workbench.app.document.document import Document
 from workbench.core.distortion import Distortion
 from workbench.core.registry import registry
 from workbench.engine.messages import Refused

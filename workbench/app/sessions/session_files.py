@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMenu, QMessageBox
 
-from workbench.app.file_choice import ask_file
-from workbench.app.new_file import ask_new_file, stem_of
-from workbench.app.reporter import source_name
+from workbench.app.files.file_choice import ask_file
+from workbench.app.files.new_file import ask_new_file, stem_of
 from workbench.app.sessions.session_desk import FILTERS, Found, SessionDesk
+from workbench.app.status.reporter import source_name
 from workbench.core.errors import WorkbenchError
 from workbench.engine.session_file import ENDING, carries_session, is_session_file
 

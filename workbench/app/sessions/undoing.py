@@ -9,13 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.anchor_set import AnchorSet
 from workbench.app.background import Background
-from workbench.app.document import Document
-from workbench.app.history import Curves
-from workbench.app.reporter import source_name
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
+from workbench.app.document.history import Curves
+from workbench.app.document.switches import switched
 from workbench.app.sessions.restoring import is_on_same_source, with_anchors
-from workbench.app.switches import switched
+from workbench.app.status.reporter import source_name
 from workbench.core.arrays import Floats
 from workbench.engine.messages import Refused
 from workbench.session.session import Session

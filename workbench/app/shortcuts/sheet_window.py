@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.new_file import ask_new_file
 from workbench.app.shortcuts.sheet import Sheet, as_html, as_text, filtered
 
 NAME = "keys.pdf"

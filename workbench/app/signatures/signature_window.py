@@ -26,14 +26,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.background import Background
-from workbench.app.file_choice import ask_files, last_folder
-from workbench.app.file_drops import FileDrops
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.file_choice import ask_files, last_folder
+from workbench.app.files.file_drops import FileDrops
+from workbench.app.files.new_file import ask_new_file
 from workbench.app.signatures.comparison import Comparison, ComparisonChoices, compare
 from workbench.app.signatures.density_plot import DensityPlot
 from workbench.app.signatures.map_list import MapList
-from workbench.app.theme import Theme
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.mesh import Mesh

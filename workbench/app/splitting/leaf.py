@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtWidgets import QWidget
 
-from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.splitting.pane_tools import PaneTools
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane

@@ -8,8 +8,8 @@ from dataclasses import replace
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QToolButton, QWidget
 
-from workbench.app.icons import icon
-from workbench.app.theme import Theme
+from workbench.app.appearance.icons import icon
+from workbench.app.appearance.theme import Theme
 
 LINKED = "Turn, move and zoom together with the other linked views of this kind"
 

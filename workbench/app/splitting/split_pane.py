@@ -8,8 +8,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QWidget
 
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.views.pane import ViewPane
 
 SIDES = {"source": "Source", "target": "Target", "carried": "Carried surface"}

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QSignalBlocker, Signal
 from PySide6.QtWidgets import QMenu, QWidget
 
-from workbench.app.anchor_tool import AnchorTool
+from workbench.app.handling.anchor_tool import AnchorTool
 from workbench.app.splitting.camera_links import CameraLinks
 from workbench.app.splitting.leaf import Leaf
 from workbench.app.splitting.pane_grid import CLOSED, PaneGrid, Side, Tree

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QPoint
 from PySide6.QtWidgets import QMenu
 
-from workbench.app.file_choice import ask_file
-from workbench.app.first_start import has_own_map
+from workbench.app.document.first_start import has_own_map
+from workbench.app.files.file_choice import ask_file
 from workbench.app.texturing.pattern_dialog import PatternDialog
 from workbench.app.views.pane import ViewPane
 from workbench.app.views.textures import PATTERN_LABELS

@@ -7,14 +7,14 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from workbench.app.colour_legend import ColourLegend
-from workbench.app.colour_range import ColourRange
-from workbench.app.navigation_tool import NavigationTool
-from workbench.app.quantities import Quantity
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.quantity_chooser import QuantityChooser
+from workbench.app.appearance.theme import Theme
+from workbench.app.colouring.colour_legend import ColourLegend
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.handling.navigation_tool import NavigationTool
+from workbench.app.quantities.quantities import Quantity
+from workbench.app.quantities.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_chooser import QuantityChooser
 from workbench.app.race.difference import difference_to, displacement_from
-from workbench.app.theme import Theme
 from workbench.app.timeline.comparison import Comparison
 from workbench.app.views.arrow_layer import ArrowLayer
 from workbench.app.views.geometry import Geometry

@@ -24,7 +24,7 @@ from PySide6.QtWidgets import (
 
 from workbench.app.composing.offers import Offer
 from workbench.app.composing.preview_dialog import PreviewDialog
-from workbench.app.new_file import ask_new_file
+from workbench.app.files.new_file import ask_new_file
 from workbench.app.timeline.film_plan import PACES, PARTS, FilmPlan
 from workbench.figures.film import LEAST, MOST, RATES, Film
 from workbench.figures.film_page import GROUNDS

@@ -13,8 +13,8 @@ from PySide6.QtCore import QObject, Signal
 from workbench.app.background import Backgrounds
 from workbench.app.composing.composing import sentence_of
 from workbench.app.composing.offers import offers_of
+from workbench.app.files.new_file import stem_of
 from workbench.app.inspector.latest import Latest
-from workbench.app.new_file import stem_of
 from workbench.app.timeline.film_dialog import FilmDialog
 from workbench.app.timeline.film_plan import FilmPlan, frames_of, sentence_about, still_of
 from workbench.core.errors import WorkbenchError

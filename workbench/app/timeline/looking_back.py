@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.document import Document
+from workbench.app.document.document import Document
 from workbench.app.inspector.latest import Latest
 from workbench.app.timeline.recorder import Recorder, anchors_of
 from workbench.core.errors import WorkbenchError

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QLabel, QWidget
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 
 GAP = 8
 NAME = "past-badge"

@@ -8,8 +8,8 @@ from weakref import WeakSet
 
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.anchor_set import AnchorSet
-from workbench.app.document import Document
+from workbench.app.document.anchor_set import AnchorSet
+from workbench.app.document.document import Document
 from workbench.app.sessions.undoing import Undoing
 from workbench.core.arrays import Floats
 from workbench.session.moments import Moment, MomentRecord

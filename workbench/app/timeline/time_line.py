@@ -9,8 +9,8 @@ import numpy as np
 from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMenu
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.sessions.restoring import with_anchors
-from workbench.app.theme import Theme
 from workbench.app.timeline.looking_back import LookingBack
 from workbench.app.timeline.past_badge import PastBadge, badge_of
 from workbench.app.timeline.player import Player

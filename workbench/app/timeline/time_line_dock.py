@@ -8,9 +8,9 @@ from PySide6.QtCore import QTimer, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QComboBox, QDockWidget, QHBoxLayout, QLabel, QMenu, QPushButton, QToolButton, QVBoxLayout, QWidget
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.docks.dock_title import DockTitle
-from workbench.app.status_line import ElidedLabel
-from workbench.app.theme import Theme
+from workbench.app.status.status_line import ElidedLabel
 from workbench.app.timeline.looking_back import LookingBack
 from workbench.app.timeline.recorder import Recorder
 from workbench.app.timeline.time_slider import TimeSlider

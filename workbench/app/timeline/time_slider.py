@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QHelpEvent, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QToolTip, QWidget
 
-from workbench.app.theme import INVERTED, LIGHT, Theme
+from workbench.app.appearance.theme import INVERTED, LIGHT, Theme
 from workbench.core.arrays import Floats
 from workbench.session.moments import Moment, MomentRecord
 

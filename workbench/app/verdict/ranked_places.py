@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject
 
-from workbench.app.quantities import Quantity
+from workbench.app.quantities.quantities import Quantity
 from workbench.app.verdict.judging import show_place
 
 if TYPE_CHECKING:

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from workbench.app.background import Background
-from workbench.app.document import Document
+from workbench.app.document.document import Document
 from workbench.core.arrays import Floats, Integers
 from workbench.core.injectivity import global_injectivity, local_injectivity
 from workbench.core.mesh import Mesh

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from workbench.app.colour_range import ColourRange
+from workbench.app.colouring.colour_range import ColourRange
 
 FLAGS = ("reversed", "whole", "clipped")
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from workbench.app.quantities import Quantity
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantities import Quantity
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.core.errors import WorkbenchError
 
 

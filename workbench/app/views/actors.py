@@ -9,7 +9,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from workbench.app.theme import Colour
+from workbench.app.appearance.theme import Colour
 from workbench.core.arrays import Integers
 
 THROUGH = 2e4

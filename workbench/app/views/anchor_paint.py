@@ -6,7 +6,7 @@ import numpy as np
 from PySide6.QtCore import QLineF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from workbench.app.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, Theme
+from workbench.app.appearance.theme import ANCHOR, ANCHOR_RIM, ANCHOR_SELECTED, Theme
 from workbench.app.views import drawing_style
 from workbench.app.views.stamps import stamp_discs
 from workbench.core.arrays import Booleans, Floats

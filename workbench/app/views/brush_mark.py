@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.theme import BRUSH, BRUSH_CASING
+from workbench.app.appearance.theme import BRUSH, BRUSH_CASING
 from workbench.app.views.actors import THROUGH, cells, line_actor, surface_actor
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonCore import vtkLookupTable
 
-from workbench.app.theme import INVERTED, Colour
+from workbench.app.appearance.theme import INVERTED, Colour
 from workbench.app.views import drawing_style
 from workbench.app.views.colour_tables import colour_table
 from workbench.figures.colour_scale import CLIPPED_ABOVE, CLIPPED_BELOW
 
 if TYPE_CHECKING:
-    from workbench.app.colour_range import ColourRange
+    from workbench.app.colouring.colour_range import ColourRange
 
 TRIMMED = 34
 """Entries left out at the pale end, which would be lost on a white background."""

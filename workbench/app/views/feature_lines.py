@@ -6,7 +6,7 @@ from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.theme import CUT, Theme
+from workbench.app.appearance.theme import CUT, Theme
 from workbench.app.views.actors import cells, line_actor
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers

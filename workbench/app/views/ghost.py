@@ -6,7 +6,7 @@ from typing import Any
 
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 from workbench.app.views.actors import actor_of, cells, mapper_of
 from workbench.app.views.geometry import Geometry
 from workbench.core.arrays import Integers

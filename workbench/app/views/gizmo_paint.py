@@ -6,8 +6,8 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
+from workbench.app.appearance.theme import Theme
 from workbench.app.handling.gizmo import Gizmo, Handle
-from workbench.app.theme import Theme
 from workbench.app.views.camera import Size, ViewCamera
 from workbench.core.arrays import Floats
 

@@ -11,7 +11,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor, QPixmap, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 from workbench.app.views.camera import Pixel, Points, Size, ViewCamera, axes_for_solid, axes_that_face
 from workbench.app.views.canvas import make_canvas
 from workbench.app.views.drawing_choices import DrawingChoices

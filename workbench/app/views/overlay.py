@@ -21,9 +21,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from workbench.app.appearance.theme import LIGHT, LIMITING, Theme
 from workbench.app.handling.gizmo import Gizmo
 from workbench.app.handling.normals import faces_away
-from workbench.app.theme import LIGHT, LIMITING, Theme
 from workbench.app.views.anchor_paint import paint_anchors
 from workbench.app.views.camera import Points
 from workbench.app.views.gizmo_paint import paint_gizmo

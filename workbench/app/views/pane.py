@@ -5,12 +5,12 @@ from __future__ import annotations
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from workbench.app.colour_legend import ColourLegend
-from workbench.app.colour_range import ColourRange
-from workbench.app.quantity_book import QuantityBook
-from workbench.app.quantity_chooser import QuantityChooser
-from workbench.app.status_line import ElidedLabel
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
+from workbench.app.colouring.colour_legend import ColourLegend
+from workbench.app.colouring.colour_range import ColourRange
+from workbench.app.quantities.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_chooser import QuantityChooser
+from workbench.app.status.status_line import ElidedLabel
 from workbench.app.views.mesh_view import MeshView
 
 

@@ -10,7 +10,7 @@ import math
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
-from workbench.app.theme import Theme
+from workbench.app.appearance.theme import Theme
 from workbench.core.round_length import round_length
 
 LONGEST = 130.0

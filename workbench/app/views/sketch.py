@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from workbench.app.theme import ANCHOR_SELECTED, Theme
+from workbench.app.appearance.theme import ANCHOR_SELECTED, Theme
 from workbench.core.arrays import Floats
 
 if TYPE_CHECKING:

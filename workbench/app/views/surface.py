@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from workbench.app.colour_range import ColourRange
-from workbench.app.theme import INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.appearance.theme import INVERTED, INVERTED_OUTLINE, Theme
+from workbench.app.colouring.colour_range import ColourRange
 from workbench.app.views import drawing_style
 from workbench.app.views.actors import THROUGH, actor_of, cells, mapper_of, surface_actor
 from workbench.app.views.brush_mark import BrushedPart, BrushMark

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from PySide6.QtGui import QAction
 
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.views.mesh_view import MeshView
 from workbench.app.views.pane import ViewPane
 from workbench.app.volumes.linked_views import LinkedViews

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from PySide6.QtCore import QSignalBlocker, Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QMenu, QSizePolicy, QSlider, QToolButton, QWidget
 
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.volumes.volume_view import VolumeView
 
 STEPS = 1000

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal
 
-from workbench.app.document import Document
-from workbench.app.quantities import IN_FORCE
-from workbench.app.quantity_book import QuantityBook
+from workbench.app.document.document import Document
+from workbench.app.quantities.quantities import IN_FORCE
+from workbench.app.quantities.quantity_book import QuantityBook
 from workbench.app.simplex_brush import SimplexBrush
 from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces
 from workbench.core.solid_look.look import AXES, VolumeLook

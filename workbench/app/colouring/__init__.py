@@ -1,0 +1,1 @@
+"""Which colour stands for which value: ranges, bars, legends."""

@@ -1,0 +1,1 @@
+"""Asking for files, by dialog or by drop."""

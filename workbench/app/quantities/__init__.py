@@ -1,0 +1,1 @@
+"""What can be shown on simplices, by name or formula."""

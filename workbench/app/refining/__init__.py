@@ -1,0 +1,1 @@
+"""Refining the mesh that is open."""

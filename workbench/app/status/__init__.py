@@ -1,0 +1,1 @@
+"""What is said about work under way and about what went wrong."""
