@@ -19,11 +19,11 @@ import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 from PySide6.QtWidgets import QWidget  # noqa: E402
 
-from workbench.app.anchor_set import AnchorSet  # noqa: E402
+from workbench.app.appearance.theme import ThemeSwitch  # noqa: E402
+from workbench.app.document.anchor_set import AnchorSet  # noqa: E402
 from workbench.app.main_window import MainWindow  # noqa: E402
 from workbench.app.race.set_up_dialog import RaceChoice  # noqa: E402
 from workbench.app.settings import Settings  # noqa: E402
-from workbench.app.theme import ThemeSwitch  # noqa: E402
 from workbench.core.samples import make_sample  # noqa: E402
 from workbench.engine.race_messages import Entrant  # noqa: E402
 
