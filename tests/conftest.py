@@ -13,6 +13,7 @@ os.environ["XDG_CONFIG_HOME"] = str(Path(_home.name) / "config")
 os.environ["XDG_STATE_HOME"] = str(Path(_home.name) / "state")
 os.environ.setdefault("QT_API", "pyside6")
 
+import hypothesis  # noqa: E402
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
 
@@ -20,6 +21,12 @@ from workbench.core.mesh import Mesh  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT.parent / "shared" / "data"
+
+# A first example may import and compile what it calls, so none is timed. The same examples come every time, so that a run says
+# something of the change and not of luck; `--hypothesis-profile=others` looks at others.
+hypothesis.settings.register_profile("others", deadline=None)
+hypothesis.settings.register_profile("laws", deadline=None, derandomize=True, database=None)
+hypothesis.settings.load_profile("laws")
 
 
 @pytest.fixture(scope="session")

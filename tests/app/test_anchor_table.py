@@ -54,7 +54,6 @@ def model_of(anchors: AnchorSet, dimension: int) -> AnchorTableModel:
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_what_is_copied_is_pasted(qapp: object, dimension: int) -> None:
-    @settings(deadline=None)
     @given(anchor_sets(dimension), anchor_sets(dimension))
     def law(anchors: AnchorSet, present: AnchorSet) -> None:
         model = model_of(anchors, dimension)
@@ -65,7 +64,7 @@ def test_what_is_copied_is_pasted(qapp: object, dimension: int) -> None:
     law()
 
 
-@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(anchor_sets())
 def test_what_is_written_is_read(tmp_path: Path, anchors: AnchorSet) -> None:
     write_anchors(tmp_path / "a.csv", table_of(anchors, 2))
@@ -73,7 +72,6 @@ def test_what_is_written_is_read(tmp_path: Path, anchors: AnchorSet) -> None:
     assert anchors_in(with_anchors(Session(), anchors)) == anchors
 
 
-@settings(deadline=None)
 @given(anchor_sets(), anchor_sets(), st.integers(0, COUNT - 1))
 def test_anchors_without_and_elsewhere_say_nothing_of_what_is_gone(one: AnchorSet, other: AnchorSet, vertex: int) -> None:
     for anchors in (one.without(vertex), one.joined(other), one.in_force, other.joined(one)):
@@ -87,7 +85,6 @@ def test_anchors_without_and_elsewhere_say_nothing_of_what_is_gone(one: AnchorSe
             assert list(moved.at_vertex(vertex, old).targets) == list(one.targets)
 
 
-@settings(deadline=None)
 @given(anchor_sets(), st.integers(0, 8), st.booleans())
 def test_sorting_is_a_permutation_by_the_column(anchors: AnchorSet, column: int, is_descending: bool) -> None:
     model = model_of(anchors, 2)

@@ -29,7 +29,6 @@ def grid(size: int) -> tuple[np.ndarray, np.ndarray]:
     return np.meshgrid(np.arange(size, dtype=float), np.arange(size, dtype=float), indexing="ij")
 
 
-@settings(deadline=None)
 @given(a=st.floats(-2, 2), b=st.floats(-2, 2), share=st.floats(0.05, 0.95))
 def test_level_lines_of_a_linear_function_lie_on_its_level(a: float, b: float, share: float) -> None:
     x, y = grid(9)
@@ -59,7 +58,7 @@ def test_saddles_are_passed_twice_and_holes_left_out() -> None:
     assert not (np.abs(pieces.mean(axis=1) - 5) < 1).all(axis=1).any()
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.integers(0, 2**32 - 1), st.integers(3, 9))
 def test_inside_agrees_with_the_winding_of_a_convex_outline(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)

@@ -89,7 +89,7 @@ def reset(room: Room, value: int) -> None:
 DEEDS = st.tuples(st.sampled_from((step, step, anchor, choose, reset)), st.integers(0, 4))
 
 
-@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=4, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(DEEDS, min_size=2, max_size=6), st.lists(st.integers(0, 6), min_size=2, max_size=6))
 def test_every_moment_has_its_curves_again(qapp: object, deeds: list, visits: list[int]) -> None:
     room = Room()

@@ -182,7 +182,7 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, ...]:
 
 
 @example([(open_another, 1), (JUMP, 0), (reset, 0), (anchor, 5), (open_another, 2)])
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=12, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(st.tuples(st.sampled_from((*DEEDS, JUMP)), st.integers(0, 9)), min_size=4, max_size=12))
 def test_every_state_comes_back_to_the_last_bit(qapp: object, sources: tuple[str, ...], deeds: list) -> None:
     bench = Bench(sources)

@@ -29,7 +29,7 @@ def dense(pattern, values):
     return matrix + np.tril(matrix, -1).T
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.integers(1, 3),
     st.integers(1, 60),

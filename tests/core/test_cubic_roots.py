@@ -50,7 +50,7 @@ def check_first_root(a: float, b: float, c: float, d: float) -> float:
 @example(1.0, 1.0, 1.0)
 @example(1.0, 1.0, -2.0)
 @example(1e-12, 1e-12, 3.0)
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 def test_double_and_triple_roots(r: float, s: float, t: float) -> None:
     coefficients = np.poly([r, s, t])
     if coefficients[3] == 0.0:
@@ -65,7 +65,7 @@ def test_double_and_triple_roots(r: float, s: float, t: float) -> None:
 @example(-1e-300, 0.0, 0.0, 1.0)
 @example(0.0, 0.0, 0.0, 1.0)
 @example(1e9, -1e-9, 0.0, 1e-12)
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 def test_vanishing_leading_coefficients(a: float, b: float, c: float, d: float) -> None:
     if check_first_root(a, b, c, d) == math.inf:
         assert a >= 0.0 or abs(a) < 1e-17  # a cubic that falls in the end has a root, though it may lie beyond all steps
@@ -85,7 +85,7 @@ def test_no_step_from_a_collapsed_tetrahedron(start: float) -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1e-9, 1e-4, 1.0]), st.sampled_from([1e-60, 1e-6, 1.0, 1e40]))
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120)
 def test_a_tetrahedron_turns_over_at_its_bound_and_not_before(seed: int, thickness: float, size: float) -> None:
     rng = np.random.default_rng(seed)
     corners = size * rng.normal(size=(4, 3)) * [1.0, 1.0, thickness]

@@ -13,7 +13,7 @@ from workbench.core.glyph_shapes import ball, ellipses, ellipsoids, stretch_line
 
 
 @given(st.integers(1, 400), st.integers(1, 300), st.integers(2, 3), st.integers(0, 9))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_a_sample_is_of_the_points_and_no_larger_than_asked(size: int, count: int, columns: int, seed: int) -> None:
     points = np.random.default_rng(seed).normal(size=(size, columns))
     rows = even_sample(points, count)

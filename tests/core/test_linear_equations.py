@@ -92,6 +92,32 @@ def test_independent_rows_span_all_rows_once_the_held_vertices_are_left_out(seed
     assert len(found) == rank == (np.linalg.matrix_rank(found) if len(found) else 0)
 
 
+@given(st.integers(0, 2**32 - 1), st.integers(1, 8), st.integers(1, 4), st.integers(-3, 3))
+def test_only_what_contradicts_the_rows_before_it_is_told(seed: int, count: int, repeated: int, power: int) -> None:
+    random = np.random.default_rng(seed)
+    matrix = random.integers(-2, 3, (count, 12)).astype(float)
+    matrix = np.vstack([matrix, random.integers(-2, 3, (repeated, count)) @ matrix])
+    matrix = matrix[np.abs(matrix).max(axis=1) > 0] * 10.0**power
+    values = matrix @ random.normal(size=12)
+    assert LinearConstraints(matrix, values).first_contradiction() is None
+    for row in range(len(matrix)):
+        wrong = values.copy()
+        wrong[row] += 1.0 + np.abs(values).max()
+        answers = [np.linalg.lstsq(matrix[:end], wrong[:end], rcond=None)[0] for end in range(len(matrix) + 1)]
+        misses = [np.abs(matrix[:end] @ x - wrong[:end]).max(initial=0.0) for end, x in enumerate(answers)]
+        bad = [end - 1 for end, miss in enumerate(misses) if miss > 1e-6 * np.abs(wrong).max()]
+        found = LinearConstraints(matrix, wrong).first_contradiction()
+        assert (found is None) == (not bad)
+        if found is not None:
+            assert found[0] == bad[0]
+            np.testing.assert_allclose(found[1], matrix[bad[0]] @ answers[bad[0]], atol=1e-8 * np.abs(wrong).max())
+
+
+def test_equations_that_contradict_each_other_are_refused_by_number_and_value() -> None:
+    with pytest.raises(WorkbenchError, match="equation 3 contradicts those before it, by which its left side is 0, not 1"):
+        linear_constraints(["x[3] - x[4] = 0", "x[4] = x[5]", "x[3] - x[5] = 1"], 20, 2)
+
+
 @pytest.mark.parametrize("solver", ["projected-newton", "aqp", "slim", "l-bfgs"])
 def test_equations_that_repeat_each_other_hold_as_well(solver: str) -> None:
     """Also where one of them binds anchors only, and so says nothing new."""

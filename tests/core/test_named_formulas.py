@@ -149,7 +149,7 @@ PARAMETERS = st.lists(
 
 
 @given(parameters=PARAMETERS, note=st.text(max_size=40).filter(lambda t: t.isprintable() and t.isascii()))
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_a_file_gives_back_what_was_written(parameters: list[Parameter], note: str, tmp_path: Path) -> None:
     items = [NamedFormula("One", "sum(sigma^2)", tuple(parameters), note), BLEND]
     path = tmp_path / "list.json"
@@ -170,7 +170,7 @@ JSON = st.recursive(
 
 
 @given(content=JSON)
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_no_content_raises(content: object, tmp_path: Path) -> None:
     path = tmp_path / "list.json"
     for text in (

@@ -32,14 +32,14 @@ def rows(*points: tuple) -> list[np.ndarray]:
 
 
 @given(POINT, POINT, POINT)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_orientation_is_the_sign_of_the_exact_area(a: tuple, b: tuple, c: tuple) -> None:
     exact = cross(a, b, c)
     assert orientation(*rows(a, b, c))[0] == (exact > 0) - (exact < 0)
 
 
 @given(POINT_3D, POINT_3D, POINT_3D, POINT_3D)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 def test_orientation_in_space_is_the_sign_of_the_exact_determinant(a: tuple, b: tuple, c: tuple, d: tuple) -> None:
     u, v, w = ([Fraction(x) - Fraction(y) for x, y in zip(p, a, strict=True)] for p in (b, c, d))
     n = [v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2] for i in range(3)]
@@ -60,7 +60,7 @@ def meet_by_fractions(a: tuple, b: tuple, c: tuple, d: tuple) -> bool:
 
 
 @given(POINT, POINT, POINT, POINT)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_segments_meet_as_in_fractions(a: tuple, b: tuple, c: tuple, d: tuple) -> None:
     expected = meet_by_fractions(a, b, c, d)
     assert segments_meet(*rows(a, b, c, d))[0] == expected
@@ -68,7 +68,7 @@ def test_segments_meet_as_in_fractions(a: tuple, b: tuple, c: tuple, d: tuple) -
 
 
 @given(st.lists(st.tuples(POINT, POINT), min_size=2, max_size=12))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_the_sweep_misses_no_pair_that_meets(segments: list) -> None:
     starts, ends = (np.array([s[i] for s in segments]) for i in (0, 1))
     found = {tuple(pair) for pair in box_pairs(starts, ends).tolist()}

@@ -42,7 +42,7 @@ def check(J: np.ndarray) -> np.ndarray:
 @example([0.0] * 8 + [5e-324], 0)
 @example([1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0], 150)
 @example([-1.0, 0, 0, 0, -1.0, 0, 0, 0, -1.0], -150)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_any_matrix_is_decomposed(entries: list[float], exponent: int) -> None:
     J = 10.0**exponent * np.array(entries).reshape(3, 3)
     s = check(J)
@@ -51,7 +51,7 @@ def test_any_matrix_is_decomposed(entries: list[float], exponent: int) -> None:
 
 
 @given(values, st.integers(0, 2**32 - 1), st.booleans(), exponents)
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_repeated_vanishing_and_negative_values_are_found(given_values, seed: int, mirrored: bool, exponent: int) -> None:
     sizes = np.sort(given_values)[::-1]
     left, right = Rotation.random(2, random_state=seed).as_matrix()
@@ -64,7 +64,7 @@ def test_repeated_vanishing_and_negative_values_are_found(given_values, seed: in
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(-60, 0), st.integers(-60, 0))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_columns_of_very_different_length_keep_their_digits(seed: int, second: int, third: int) -> None:
     """Needles: the values of an orthogonal matrix with scaled columns are the scales, each to its own last digits."""
     scales = np.array([1.0, 10.0**second, 10.0**third])

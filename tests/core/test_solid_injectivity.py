@@ -249,7 +249,7 @@ def meet_by_separation(first: list, second: list) -> bool:
 
 
 @given(st.lists(POINT, min_size=6, max_size=6))
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=400)
 def test_triangles_meet_as_the_separating_axes_say(points: list) -> None:
     for three in (points[:3], points[3:]):
         u, v = ([Fraction(y) - Fraction(x) for x, y in zip(three[0], three[i], strict=True)] for i in (1, 2))

@@ -32,7 +32,6 @@ coefficient = st.one_of(st.just(0.0), st.floats(-1e6, 1e6, allow_nan=False), st.
 
 @given(coefficient, coefficient, st.floats(1e-9, 1e6))
 @example(0.0, -1e-200, 1e-9)
-@settings(deadline=None)
 def test_quadratic_is_positive_before_its_first_root(a: float, b: float, c: float) -> None:
     root = smallest_positive_root_quadratic(a, b, c)
     assert root > 0
@@ -46,7 +45,7 @@ def test_quadratic_is_positive_before_its_first_root(a: float, b: float, c: floa
 
 @given(coefficient, coefficient, coefficient, st.floats(1e-9, 1e6))
 @example(0.0, 1.1205800351123752e-242, -1.0, 1.0)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_cubic_is_positive_before_its_first_root(a: float, b: float, c: float, d: float) -> None:
     root = smallest_positive_root_cubic(a, b, c, d)
     assert root > 0

@@ -94,7 +94,7 @@ _formulas = st.recursive(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(_formulas)
 def test_any_formula_can_be_drawn(text: str) -> None:
     latex = latex_of_formula(text, TITLES)
@@ -102,7 +102,7 @@ def test_any_formula_can_be_drawn(text: str) -> None:
     assert latex == " ".join(latex_terms(text, TITLES))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(_formulas)
 def test_typesetting_keeps_every_number_and_name(text: str) -> None:
     """Leaves come in their order; folding `max(sigma)` to the first value and counts of sums aside."""

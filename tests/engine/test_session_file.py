@@ -88,7 +88,7 @@ def test_the_name_of_a_mesh_need_not_be_text(tmp_path: Path) -> None:
         read_session(tmp_path / "s.json")
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(records())
 def test_what_is_written_is_read(tmp_path: Path, record: SessionRecord) -> None:
     path = tmp_path / "s.dwb"
@@ -259,7 +259,7 @@ def test_long_equations_are_no_lists() -> None:
     assert part_count(json.dumps({**HEAD, "linear_equations": [f"{terms} = 1.0"] * 100})) == 3
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.recursive(
         st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=5)),

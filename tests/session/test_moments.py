@@ -42,7 +42,7 @@ def test_the_newest_and_those_with_notes_are_exact() -> None:
 
 
 @given(st.lists(st.tuples(st.floats(1e-4, 3.0), st.booleans()), min_size=1, max_size=300), st.integers(8, 60))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_memory_is_never_exceeded_and_the_order_is_that_of_time(steps: list[tuple[float, bool]], room: int) -> None:
     limit = room * COUNT * 16
     record, now = MomentRecord(limit), 0.0
@@ -115,7 +115,7 @@ def test_inversions_are_those_of_the_exact_map() -> None:
 
 
 @given(st.floats(-1.0, 30.0))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_the_nearest_moment_is_found(time: float) -> None:
     record = filled(10**9, 40, step=0.3)
     assert abs(record[record.at(time)].time - time) == pytest.approx(min(abs(t - time) for t in record.times), abs=1e-12)

@@ -53,7 +53,7 @@ ACTIONS = st.one_of(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.lists(ACTIONS, max_size=40))
 def test_undo_all_and_redo_all_gives_the_same_to_the_last_bit(actions: list[tuple[str, int]]) -> None:
     figure = Figure()

@@ -15,6 +15,8 @@ LARGEST_WEIGHT = 1e12
 """Of a soft anchor: beyond it the penalty drowns the distortion in rounding; such an anchor is a hard one."""
 INDEPENDENT = 1e-10
 """Part of the length of a row that has to be left beyond the rows before it, or they say the same."""
+CONTRADICTION = 1e-6
+"""Part of its size by which a value has to differ from what the rows before it make of it: less may be rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,29 +138,57 @@ class LinearConstraints:
     def independent(self, held: Integers, dimension: int) -> LinearConstraints:
         """The rows that say something new once the vertices `held` stand still; kept until these change."""
         if not self._kept or not np.array_equal(self._kept[0][0], held):
-            rows = self._independent_rows((held[:, None] * dimension + np.arange(dimension)).reshape(-1))
+            rows, _ = self._split((held[:, None] * dimension + np.arange(dimension)).reshape(-1))
             every = len(rows) == len(self.values)
             self._kept[:] = [(held.copy(), self if every else LinearConstraints(self.matrix[rows], self.values[rows]))]
         return self._kept[0][1]
 
-    def _independent_rows(self, still: Integers) -> Integers:
-        """By Gram and Schmidt, twice for each row: what is left of it beyond those before is rounding, or news."""
+    def first_contradiction(self) -> tuple[int, float] | None:
+        """The first row that those before it fix to another value than its own, and what they fix it to; None where none is."""
+        lengths = np.maximum(scipy.sparse.linalg.norm(self.matrix, axis=1), np.finfo(float).tiny)
+        units, values = scipy.sparse.diags(1.0 / lengths) @ self.matrix, self.values / lengths
+        residual = scipy.sparse.linalg.lsmr(units, values, atol=1e-12, btol=1e-12, maxiter=4 * len(values))[3]
+        if residual <= 0.1 * CONTRADICTION * np.linalg.norm(values):
+            return None  # something solves them all; telling which rows depend on which takes far longer
+        rows, misses = self._split(np.empty(0, dtype=np.int64))
+        wrong = np.setdiff1d(np.flatnonzero(np.abs(misses) > CONTRADICTION), rows)
+        if not len(wrong):
+            return None
+        first = int(wrong[0])
+        # Told by rows of its own length: the answer is the one of the least norm that the rows before it allow.
+        answer = scipy.sparse.linalg.lsmr(self.matrix[:first], self.values[:first], atol=1e-14, btol=1e-14)[0]
+        return first, float((self.matrix[first] @ answer)[0])
+
+    def _split(self, still: Integers) -> tuple[Integers, Floats]:
+        """The independent rows, and (p,) how far the value of each is from what the ones before it make of it, to their size.
+
+        By Gram and Schmidt, twice for each row: what is left of it beyond those before is rounding, or news. Coordinates that
+        stand still count as 0.
+        """
         free = np.ones(self.matrix.shape[1])
         free[still] = 0.0
         lengths = scipy.sparse.linalg.norm(self.matrix, axis=1)
         moving = scipy.sparse.csr_matrix(self.matrix @ scipy.sparse.diags(free))
         rows = moving[:, np.unique(moving.indices)].toarray()
         basis = np.empty_like(rows)
+        heights = np.empty(len(rows))
+        misses = np.zeros(len(rows))
         found: list[int] = []
         for index, row in enumerate(rows):
-            before = basis[: len(found)]
+            before, reached = basis[: len(found)], heights[: len(found)]
+            value = self.values[index]
             for _ in range(2):
-                row = row - before.T @ (before @ row)
+                parts = before @ row
+                row = row - before.T @ parts
+                value -= parts @ reached
             left = float(np.linalg.norm(row))
             if left > INDEPENDENT * lengths[index]:
                 basis[len(found)] = row / left
+                heights[len(found)] = value / left
                 found.append(index)
-        return np.array(found, dtype=np.int64)
+            elif value:
+                misses[index] = value / (abs(self.values[index]) + lengths[index] * np.abs(reached).max(initial=0.0))
+        return np.array(found, dtype=np.int64), misses
 
     def tangential(self, direction: Floats, held: Integers, inverse_metric: Floats | None = None) -> Floats:
         """The part of `direction` (n, d) that keeps A x, with the vertices `held` not moving at all.

@@ -126,7 +126,8 @@ def with_equations(problem: Problem, equations: Sequence[str]) -> Problem:
 def linear_constraints(equations: Sequence[str], vertex_count: int, dimension: int) -> LinearConstraints | None:
     """The rows A, b of equations on a map (n, d), None where there are no equations.
 
-    Raises `WorkbenchError` for a vertex or an axis that the map does not have, and for more rows than memory is spent on.
+    Raises `WorkbenchError` for a vertex or an axis that the map does not have, for an equation that contradicts those before
+    it, and for more rows than memory is spent on.
     """
     if not equations:
         return None
@@ -150,4 +151,12 @@ def linear_constraints(equations: Sequence[str], vertex_count: int, dimension: i
             factors.append(factor)
         values.append(equation.value)
     shape = (len(equations), vertex_count * dimension)
-    return LinearConstraints(scipy.sparse.csr_matrix((factors, (rows, columns)), shape), np.array(values))
+    constraints = LinearConstraints(scipy.sparse.csr_matrix((factors, (rows, columns)), shape), np.array(values))
+    contradiction = constraints.first_contradiction()
+    if contradiction is not None:
+        row, value = contradiction
+        raise WorkbenchError(
+            f"Linear equation {row + 1} contradicts those before it, by which its left side is {value:g}, not {values[row]:g}; "
+            "change it or take it out."
+        )
+    return constraints
