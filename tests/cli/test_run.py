@@ -43,8 +43,9 @@ def test_a_session_that_was_typed_is_solved_as_the_command_line_does(cli, tmp_pa
     assert len(rows) == ours["iterations"] + 2, "a header, the start, a row an iteration"
 
 
-def test_a_run_that_fails_is_told_as_the_command_line_does(cli, tmp_path: Path, square_file: Path) -> None:
-    equations = ["x[0] = 0.0", "x[0] = 1.0"]  # no map keeps both
+def test_a_run_that_fails_is_told_as_the_command_line_does(cli, tmp_path: Path, square_file: Path, square) -> None:
+    places = ((vertex, *square.vertices[vertex]) for vertex in square.simplices[0])
+    equations = [line for vertex, x, y in places for line in (f"x[{vertex}] = {y}", f"y[{vertex}] = {x}")]  # turned over
     session = by_hand(tmp_path / "s.json", square_file.name, linear_equations=equations)
     (tmp_path / "e.txt").write_text("\n".join(equations))
     ours = cli("run", session, "--out", tmp_path / "out")

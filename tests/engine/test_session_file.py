@@ -21,6 +21,8 @@ from hypothesis import strategies as st
 from PIL import Image
 
 from workbench.core.errors import WorkbenchError
+from workbench.core.method import Parameter
+from workbench.core.named_formulas import NamedFormula
 from workbench.engine import session_file
 from workbench.engine.session_file import (
     carries_session,
@@ -29,6 +31,7 @@ from workbench.engine.session_file import (
     source_trouble,
     write_session,
 )
+from workbench.io.formula_store import delete_formula, save_formula
 from workbench.io.png_content import with_content
 from workbench.session.journal import Leg
 from workbench.session.record import SessionRecord
@@ -106,6 +109,21 @@ def test_what_is_written_is_read(tmp_path: Path, record: SessionRecord) -> None:
     first = path.read_bytes()
     write_session(path, found)
     assert path.read_bytes() == first
+
+
+def test_a_formula_of_the_users_own_goes_along_and_is_called_by_its_name_where_it_has_one(tmp_path: Path) -> None:
+    blend = NamedFormula("Of a session", "lam*mips + (1 - lam)*arap", (Parameter("lam", float, 0.25, "", 0.0, 1.0),))
+    id = save_formula(blend)
+    path = tmp_path / "s.json"
+    try:
+        session = Session(source="sample:bar", distortion=id, distortion_parameters={"lam": 0.5})
+        write_session(path, SessionRecord(session, legs=(Leg(session, "start", None, 3),)))
+        at_home = read_session(path)
+        assert at_home.session == session and at_home.legs[0].choices.distortion == id
+    finally:
+        delete_formula(id)
+    elsewhere = read_session(path).session
+    assert (elsewhere.distortion, elsewhere.distortion_parameters) == (blend.formula, {"lam": 0.5})
 
 
 def test_only_what_differs_from_the_defaults_is_written(tmp_path: Path) -> None:

@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from workbench.core.arrays import Floats
-from workbench.core.distortion import Distortion
 from workbench.core.errors import WorkbenchError
-from workbench.core.registry import registry
+from workbench.engine.own_formulas import self_contained
 from workbench.engine.replay import check_maps, initializer_of, problem_of, solver_of, start_of
 from workbench.io.atomic import write_text
 from workbench.io.file_names import relative_name
@@ -210,7 +209,8 @@ class _Writer:
 
     def solve(self, choices: Session, start: Mapping[str, str], limits: Mapping[str, Any]) -> str:
         """The call that goes on from `start` under these choices."""
-        text, values = _self_contained(choices)
+        choices = self_contained(choices)
+        text, values = choices.distortion, choices.distortion_parameters
         distortion, solver = literal(text), literal(choices.solver)
         if values:
             distortion = f"Distortion.resolve({distortion}, {literal(values)})"
@@ -223,17 +223,6 @@ class _Writer:
         given |= {"allow_inversions": "True"} if choices.allow_inversions else {}
         given |= {name: literal(value) for name, value in limits.items() if value != math.inf}
         return _call("result = solve", ["source", distortion, *(f"{name}={value}" for name, value in given.items())])
-
-
-def _self_contained(choices: Session) -> tuple[str, Mapping[str, float]]:
-    """The distortion with its values; a formula of the user's own as the formula that it is, for those who do not have it."""
-    own = registry().own_formulas
-    if choices.distortion not in own:
-        return choices.distortion, choices.distortion_parameters
-    formula = own[choices.distortion].formula
-    if any(re.search(rf"\b{id.replace('-', '_')}\b", formula) for id in own):
-        return choices.distortion, choices.distortion_parameters
-    return formula, Distortion.resolve(choices.distortion, choices.distortion_parameters).parameter_values
 
 
 def _rows(values: tuple[Any, ...]) -> str:

@@ -21,6 +21,7 @@ import numpy as np
 
 from workbench.core.arrays import Floats, frozen
 from workbench.core.errors import WorkbenchError
+from workbench.engine.own_formulas import self_contained, with_own_names
 from workbench.io.atomic import replacing, utf8
 from workbench.io.file_names import relative_name, renamed
 from workbench.io.opening import SAMPLE
@@ -93,6 +94,7 @@ def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool
     if is_bare:
         legs = tuple(replace(leg, positions=None) for leg in record.legs)
         record = replace(record, map=None, legs=legs if legs and legs[0].origin == "start" else ())
+    record = _with_choices(record, self_contained)
     record = replace(record, session=_with_paths(record.session, lambda name: relative_name(name, folder)))
     plain, arrays = plain_of(record)
     words = readable(plain) + "\n"
@@ -108,6 +110,11 @@ def _write(stream: IO[bytes], record: SessionRecord, folder: Path, is_bare: bool
         for name, array in arrays.items():
             with archive.open(zipfile.ZipInfo(f"{name}.npy", LONG_AGO), "w", force_zip64=True) as member:
                 np.lib.format.write_array(member, np.ascontiguousarray(array, "<f8"), allow_pickle=False)
+
+
+def _with_choices(record: SessionRecord, change: Callable[[Session], Session]) -> SessionRecord:
+    legs = tuple(replace(leg, choices=change(leg.choices)) for leg in record.legs)
+    return replace(record, session=change(record.session), legs=legs)
 
 
 def read_session(path: str | os.PathLike[str]) -> SessionRecord:
@@ -139,7 +146,7 @@ def _record_in(path: Path, data: bytes) -> SessionRecord:
         plain = parsed(text.decode("utf-8-sig"))
     except UnicodeDecodeError:
         raise WorkbenchError("It is no session: neither a zip nor text in UTF-8.") from None
-    record = record_of(plain, arrays)
+    record = _with_choices(record_of(plain, arrays), with_own_names)
     folder = Path(os.path.abspath(path)).parent
     return replace(record, session=_with_paths(record.session, lambda name: os.path.normpath(folder / name)))
 
