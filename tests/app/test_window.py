@@ -122,6 +122,30 @@ def test_a_map_that_went_out_of_sight_is_fitted_unless_somebody_looks_elsewhere(
     view.fit()
 
 
+def test_a_map_that_rests_fills_its_views_while_one_that_moves_may_breathe(window: MainWindow) -> None:
+    positions = window.document.positions
+    middle = 0.5 * (positions.min(axis=0) + positions.max(axis=0))
+    geometry = window.target.view.geometry_shown
+    for view in (window.target.view, *(dock.view for dock in window.maps)):
+        for phase, size, is_fitted in (
+            ("running", 0.6, False),
+            ("running", 0.3, True),
+            ("idle", 0.6, True),
+            ("finished", 0.6, True),
+        ):
+            geometry.write(positions)
+            view.fit()
+            before = view.camera
+            geometry.write(middle + size * (positions - middle))
+            view.points_changed()
+            view.fit_if_it_left(phase)
+            assert (view.camera is not before) == is_fitted
+            filled = np.ptp(view.project(geometry.points), axis=0) / view.size_in_pixels
+            assert (filled.max() > 0.8) == is_fitted
+    geometry.write(positions)
+    window.presenter.refit_target()
+
+
 def test_a_drag_is_passed_on_at_most_sixty_times_a_second(window: MainWindow, qtbot: QtBot) -> None:
     target, throttle = window.target.view, window.target_tool._throttle
     assert throttle.interval() >= 16

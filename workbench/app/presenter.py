@@ -177,7 +177,7 @@ class Presenter(QObject):
         if not pane.is_source:
             pane.view.points_changed()
             if not len(self._document.anchors):
-                pane.view.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+                pane.view.fit_if_it_left(snapshot.phase)
             elif not self._document.is_held:
                 pane.view.fit_if_it_is_gone()
         self._colouring.paint(pane)
@@ -202,7 +202,7 @@ class Presenter(QObject):
             self._draw_source()
         elif self._fits_next or not len(self._document.anchors):
             # whoever moves anchors wants the picture to stand still
-            self.target.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+            self.target.fit_if_it_left(snapshot.phase)
         elif not self._document.is_held:
             self.target.fit_if_it_is_gone()  # a single anchor takes the whole map with it
         self._fits_next = False

@@ -65,7 +65,7 @@ class ColourMapDock(QuantityDock):
         if self.view.surface is None or values is None:
             return
         self.view.points_changed()
-        self.view.fit_if_it_left(0.75 if snapshot.phase == "finished" else 0.45)
+        self.view.fit_if_it_left(snapshot.phase)
         self.view.surface.set_values(values, snapshot.inverted)
         self.legend.show_values(values)
         self.view.refresh()

@@ -28,6 +28,8 @@ REACH_INSIDE = 60.0
 """The same over the mesh, where large triangles leave vertices far apart."""
 LEAST_SHOWN = 0.02
 """Size of what is shown at least where a place is looked at, of the size of the mesh."""
+LEAST_FILLED, LEAST_WHILE_MOVING = 0.75, 0.45
+"""Part of a view, in its tighter direction, below which a map that rests, or one that moves, counts as shrunk."""
 LEAST_SEEN = 0.1
 """Part of the box round a map below which a view counts as empty."""
 PAINTED_FROM = 12_000
@@ -212,14 +214,14 @@ class MeshView(QWidget):
             self.set_camera(self.camera.fitted(self.geometry_shown.points, self.size_in_pixels), fits=True)
         self._wants_fit = True
 
-    def fit_if_it_left(self, least: float = 0.45) -> None:
+    def fit_if_it_left(self, phase: str = "running") -> None:
         """Fit once more where the map has grown out of a view whose camera nobody has touched, or shrunk in it.
 
-        `least` is the part of the view, in its tighter direction, below which the map counts as shrunk; the larger it
-        is, the nearer to the middle the map has to be.
+        The larger the part of the view that it has to fill in this phase of a snapshot, the nearer to the middle it has to be.
         """
         if not self._wants_fit or self.geometry_shown is None:
             return
+        least = LEAST_FILLED if phase in ("idle", "finished") else LEAST_WHILE_MOVING
         width, height = self.size_in_pixels
         corners = self.project(box_corners(self.geometry_shown.points))
         (left, top), (right, bottom) = corners.min(axis=0), corners.max(axis=0)
