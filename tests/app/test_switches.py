@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, QRectF
 from pytestqt.qtbot import QtBot
 
 from tests.app.fake_engine import FakeWorker
-from workbench.app.docks.axis_numbers import distinct_numbers
+from workbench.app.docks.axis_numbers import decade_marks, distinct_numbers
 from workbench.app.document import switches as switches_module
 from workbench.app.document.document import Document
 from workbench.app.document.engine_bridge import EngineBridge
@@ -111,6 +112,23 @@ def test_numbers_of_a_narrow_axis_differ() -> None:
     assert len(set(texts)) == 3
     assert [float(text) for text in texts] == pytest.approx(values)
     assert distinct_numbers([1e-15, 1e10, 5.0]) == ["1e-15", "1e10", "5"]
+
+
+def test_every_logarithmic_axis_has_two_numbers() -> None:
+    """A curve without numbers tells nothing."""
+    for low in np.linspace(-3.3, 4.0, 40):
+        for span in (1e-3, 0.01, 0.04, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9, 1.2, 2.5, 9.0):
+            for most in (2, 3, 5):
+                marks = decade_marks(low, low + span, most)
+                assert 2 <= len(marks) <= most + 1
+                assert low - 1e-9 <= min(marks) and max(marks) <= low + span + 1e-9
+
+
+def test_a_number_at_the_end_of_an_axis_with_a_grid_is_written(window: MainWindow, qtbot: QtBot) -> None:
+    axis = window.convergence.plots.plots[0].getAxis("left")
+    box, bounds = axis.mapRectFromParent(axis.geometry()), axis.boundingRect()
+    assert axis.grid is not False
+    assert bounds.contains(QRectF(1.0, box.bottom() - 6.0, 10.0, 12.0))
 
 
 def test_the_plots_stay_inside_a_narrow_dock(window: MainWindow, qtbot: QtBot) -> None:

@@ -22,9 +22,12 @@ def decade_marks(low: float, high: float, most: int) -> list[float]:
         return marks[:: math.ceil(len(marks) / most)]
     # less than a factor of five in sight: the axis is nearly linear
     least, greatest = 10.0**low, 10.0**high
-    step = rounded_up((greatest - least) / most)
-    first, last = math.ceil(least / step), math.floor(greatest / step)
-    return [math.log10(k * step) for k in range(first, last + 1) if k > 0]
+    for parts in range(most, most + 5):  # of five parts, two ends at least are in sight
+        step = rounded_up((greatest - least) / parts)
+        marks = [math.log10(k * step) for k in range(math.ceil(least / step), math.floor(greatest / step) + 1) if k > 0]
+        if len(marks) >= 2:
+            break
+    return marks[:: max(math.ceil(len(marks) / max(most, 2)), 1)]
 
 
 def distinct_numbers(values: list[float]) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pyqtgraph as pg
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QWidget
 
 from workbench.app.appearance.theme import Theme
@@ -17,6 +17,11 @@ OVERHANG = 16
 
 class LogarithmicAxis(pg.AxisItem):  # type: ignore[misc]
     """An axis whose marks stand at powers of ten, or at 1, 2, 5 times them where few powers are in sight."""
+
+    def boundingRect(self) -> QRectF:
+        """With room for half a number beyond its ends: an axis with a grid would leave out one that stands there."""
+        rect: QRectF = super().boundingRect()
+        return rect if self.grid is False else rect.adjusted(0.0, -OVERHANG, 0.0, OVERHANG)
 
     def tickValues(self, low: float, high: float, size: float) -> list[tuple[float, list[float]]]:
         if not self.logMode:
