@@ -151,13 +151,28 @@ def test_textures_are_those_of_figures(texture: str) -> None:
 def test_a_solid_is_looked_into_as_the_panel_says() -> None:
     solid = solid_mesh((4, 2, 2))
     panel = Panel("map", colour="det", caption="")
-    cut = SolidLook(VolumeLook(only_marked=True), marked=tuple(range(6)))
+    cut = SolidLook(VolumeLook(only_marked=True, ghost=0.0), marked=tuple(range(6)))
     still = Still(lambda: solid.vertices)
     seen = []
     for look in (None, cut):
         frame = FilmDrawer(Film((replace(panel, look=look),), 160, 120), solid, [still]).draw(still)
         seen.append((frame != 255).any(axis=2).sum())
     assert 0 < seen[1] < 0.6 * seen[0]
+
+
+def test_what_is_gone_of_a_solid_leaves_a_veil() -> None:
+    """Also where all of it is peeled off, as before anything moves: such a frame is not empty."""
+    solid = solid_mesh((4, 2, 2))
+    still = Still(lambda: solid.vertices)
+    seen = []
+    for ghost in (0.0, 0.3):
+        look = SolidLook(VolumeLook(threshold=7.0, ghost=ghost))
+        panel = Panel("map", colour="det", caption="", look=look)
+        frame = FilmDrawer(Film((panel,), 160, 120), solid, [still]).draw(still)
+        seen.append((frame < 250).any(axis=2))
+    whole = FilmDrawer(Film((replace(panel, look=None),), 160, 120), solid, [still]).draw(still)
+    assert not seen[0].any()
+    assert abs(int(seen[1].sum()) - int((whole < 250).any(axis=2).sum())) < 60, "the veil covers what the solid did"
 
 
 @pytest.mark.skipif(not ffmpeg(), reason="there is no ffmpeg here")

@@ -22,6 +22,7 @@ from workbench.figures.mesh_panel import PLAIN_COLOUR, WIRE_COLOUR, Scene, colou
 from workbench.figures.mesh_pictures import FINER, Frame, frame_round, shades
 from workbench.figures.picture_sampling import fitting
 from workbench.figures.recipe import PLAIN, TEXTURES, Panel
+from workbench.figures.solid_panel import takes_away, veiled
 from workbench.figures.texture_panel import picture_of, texture_places
 
 if TYPE_CHECKING:
@@ -194,6 +195,9 @@ class FilmDrawer:
         pixels = np.column_stack([(scene.points[:, :2] - [left, bottom]) * frame.density, scene.points[:, 2:]])
         if not panel.wires:
             draw_triangles(pixels, scene.skin.triangles, scene.inverted.astype(np.int64), self._paint(index, scene), picture)
+        if takes_away(scene):
+            solid = np.concatenate([picture / 255.0, np.ones((*picture.shape[:2], 1))], axis=2)
+            picture[:] = np.rint(255.0 * veiled(solid, scene, frame)[..., :3]).astype(np.uint8)
         if has_overlay(panel):
             colours = self._colours(index, scene, WIRES[self.is_dark])
             ground = self.film.ground

@@ -37,10 +37,16 @@ def with_made(vertices: Floats, made: MadePoints | None) -> Floats:
     return vertices if made is None else np.concatenate([vertices, made.at(vertices)])
 
 
+def takes_away(scene: Scene) -> bool:
+    """Whether a panel leaves out some of a solid, and a veil tells where it was."""
+    look = scene.panel.look
+    return look is not None and look.shape.takes_away and look.shape.ghost > 0 and scene.map.mesh.dimension == 3
+
+
 def veiled(image: Floats, scene: Scene, part: Frame) -> Floats:
     """A picture (h, w, 4) with the boundary of a solid as a veil over what lies behind it, where something is gone."""
     look = scene.panel.look
-    if look is None or not (look.shape.takes_away and look.shape.ghost > 0) or scene.map.mesh.dimension != 3:
+    if look is None or not takes_away(scene):
         return image
     solid = scene.map.mesh.vertices if scene.panel.kind == "source" else scene.map.positions
     points = solid if scene.turn is None else solid @ scene.turn.T
