@@ -14,6 +14,7 @@ from workbench.core.signature import (
     common_edges,
     densities,
     distances,
+    heights_on_axis,
     l1_distance,
     masses,
     signature,
@@ -64,6 +65,18 @@ def test_histograms_have_the_integral_one(logarithmic: bool) -> None:
         assert densities(item, edges) @ np.diff(edges) == pytest.approx(1.0)
         inside = (item.values >= edges[10]) & (item.values < edges[11])
         assert masses(item, edges)[10] == pytest.approx(item.weights[inside].sum(), abs=1e-12)
+
+
+@pytest.mark.parametrize("logarithmic", [False, True])
+def test_bars_of_equal_width_are_as_high_as_their_parts_are_large(logarithmic: bool) -> None:
+    items = [random_signature(seed) for seed in range(2)]
+    edges = common_edges(items, logarithmic=logarithmic)
+    widths = np.diff(np.log10(edges) if logarithmic else edges)
+    assert widths == pytest.approx(widths[0])
+    for item in items:
+        heights = heights_on_axis(item, edges, logarithmic=logarithmic)
+        assert heights @ widths == pytest.approx(1.0)
+        assert heights / heights.max() == pytest.approx(masses(item, edges) / masses(item, edges).max())
 
 
 def test_a_signature_is_that_of_the_map(square: Mesh, cube: Mesh) -> None:

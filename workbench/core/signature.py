@@ -108,6 +108,14 @@ def densities(item: Signature, edges: Floats) -> Floats:
     return masses(item, edges) / np.diff(edges)
 
 
+def heights_on_axis(item: Signature, edges: Floats, *, logarithmic: bool) -> Floats:
+    """Heights (k,) of bars whose areas as drawn are parts of the source: on a logarithmic axis the unit is a decade.
+
+    A density over the values themselves would raise the small ones there, as their bins are narrow, and hide the large.
+    """
+    return masses(item, edges) / np.diff(np.log10(edges)) if logarithmic else densities(item, edges)
+
+
 def l1_distance(first: Signature, second: Signature, edges: Floats) -> float:
     """Integral of the difference of two normalised histograms, in [0, 2]; it depends on the bins, with ends (b + 1,)."""
     return float(np.abs(masses(first, edges) - masses(second, edges)).sum())

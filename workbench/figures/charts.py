@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from workbench.core.arrays import Floats
-from workbench.core.signature import Signature, densities
+from workbench.core.signature import Signature, heights_on_axis
 from workbench.figures.colour_scale import LOGARITHMIC
 from workbench.figures.convergence_curves import COLOURS, DASHES, MARKS, without_mathematics
 from workbench.figures.recipe import QUANTITIES
@@ -96,7 +96,7 @@ def draw_histograms(
 
     `room` is the width of the panel, mm; `tallest` the density up to which the axis reaches.
     """
-    heights = [densities(item, edges) for item in items]
+    heights = [heights_on_axis(item, edges, logarithmic=is_logarithmic) for item in items]
     if len(items) == 1:
         colours = COLOURS[0] if paint is None else paint.to_rgba(np.clip(0.5 * (edges[1:] + edges[:-1]), *paint.get_clim()))
         axes.bar(edges[:-1], heights[0], np.diff(edges), align="edge", color=colours, linewidth=0)
@@ -114,7 +114,7 @@ def draw_histograms(
     places, labels = fitting_ticks(low, high, _width(axes), 0.85 * font_size, is_logarithmic=is_logarithmic)
     axes.set_xticks(places, labels=labels)
     axes.set(xlim=(edges[0], edges[-1]), ylim=(0.0, 1.05 * tallest))
-    _words(axes, label, "density", font_size, room)
+    _words(axes, label, "density per decade" if is_logarithmic else "density", font_size, room)
 
 
 def draw_curves(axes: Axes, maps: Sequence[FigureMap], quantity: str, font_size: float, room: float) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from workbench.core.arrays import Floats
 from workbench.core.errors import WorkbenchError
 from workbench.core.measure import DESCRIPTORS, Measure
-from workbench.core.signature import Signature, common_edges, densities
+from workbench.core.signature import Signature, common_edges, heights_on_axis
 from workbench.figures.charts import BEYOND_BAR, LABEL, draw_bar, draw_curves, draw_histograms
 from workbench.figures.colour_scale import LOGARITHMIC, centred_scale, colour_scale, in_the_way_of
 from workbench.figures.figure_maps import FigureMap
@@ -299,7 +299,7 @@ class _Composer:
         high = max(float(item.values.max()) for item in everything)
         is_logarithmic = low > 0 and high > LOGARITHMIC**2 * low
         edges = common_edges(everything, panel.bins, logarithmic=is_logarithmic)
-        tallest = max(float(densities(item, edges).max()) for item in everything)
+        tallest = max(float(heights_on_axis(item, edges, logarithmic=is_logarithmic).max()) for item in everything)
         items = [self._signature(name, panel) for name in panel.maps]
         paint = self.paints.get(panel.scale) if panel.scale else None
         draw_histograms(

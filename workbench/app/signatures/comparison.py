@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from workbench.core.arrays import Floats
-from workbench.core.signature import Distances, Signature, common_edges, densities, distances
+from workbench.core.signature import Distances, Signature, common_edges, distances, heights_on_axis
 
 
 @dataclass(frozen=True)
@@ -19,11 +19,11 @@ class ComparisonChoices:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Signatures as they were compared, with the common `edges` (k + 1,), a density (k,) for each, and the distances."""
+    """Signatures as they were compared, with the common `edges` (k + 1,), `heights` (k,) for each, and the distances."""
 
     signatures: tuple[Signature, ...]
     edges: Floats
-    densities: tuple[Floats, ...]
+    heights: tuple[Floats, ...]
     distances: Distances
     choices: ComparisonChoices
 
@@ -32,4 +32,5 @@ def compare(signatures: tuple[Signature, ...], choices: ComparisonChoices) -> Co
     """Histograms over common bins and distances of at least one signature. Raises `WorkbenchError` for one without scale."""
     shown = tuple(item.normalised() if choices.is_normalised else item for item in signatures)
     edges = common_edges(shown, choices.bins, logarithmic=choices.is_logarithmic)
-    return Comparison(shown, edges, tuple(densities(item, edges) for item in shown), distances(shown, edges), choices)
+    heights = tuple(heights_on_axis(item, edges, logarithmic=choices.is_logarithmic) for item in shown)
+    return Comparison(shown, edges, heights, distances(shown, edges), choices)

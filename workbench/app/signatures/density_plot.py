@@ -42,16 +42,17 @@ class DensityPlot(pg.PlotWidget):  # type: ignore[misc]
             return
         choices, edges = comparison.choices, comparison.edges
         self._axis.setLogMode(choices.is_logarithmic)
+        self.setLabel("left", "density per decade" if choices.is_logarithmic else "density")
         self.setLabel("bottom", "average singular value (78)" + (", mean 1" if choices.is_normalised else ""))
         places = np.log10(edges) if choices.is_logarithmic else edges
-        for density, colour in zip(comparison.densities, colours, strict=True):
+        for height, colour in zip(comparison.heights, colours, strict=True):
             fill = QColor(colour)
             fill.setAlpha(40)
             # stepMode draws one level between each two edges
             curve = pg.PlotDataItem(
-                places, density, stepMode="center", fillLevel=0, fillBrush=fill, pen=pg.mkPen(colour, width=2)
+                places, height, stepMode="center", fillLevel=0, fillBrush=fill, pen=pg.mkPen(colour, width=2)
             )
             self.addItem(curve)
             self.curves.append(curve)
         self.setXRange(float(places[0]), float(places[-1]), padding=0.02)
-        self.setYRange(0.0, max(float(density.max()) for density in comparison.densities), padding=0.05)
+        self.setYRange(0.0, max(float(height.max()) for height in comparison.heights), padding=0.05)
