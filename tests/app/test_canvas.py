@@ -178,3 +178,17 @@ def test_what_is_more_than_flat_colours_is_left_to_opengl(make_view) -> None:
     surface.show_pattern(Texture("checkerboard"))
     assert surface.flat_colours() is None
     assert make_view("memory", bumpy_mesh()).surface.flat_colours() is None  # light
+
+
+@pytest.mark.parametrize("size", [(240, 180), (241, 180), (240, 183), (243, 181)])
+def test_a_screen_that_is_scaled_by_a_fraction_is_painted_to_its_last_row_and_column(make_view, monkeypatch, size) -> None:
+    canvas = make_view("memory", grid_mesh()).canvas
+    monkeypatch.setattr(canvas, "devicePixelRatioF", lambda: 1.5)
+    canvas.resize(*size)
+    screen = QImage(*(int(np.ceil(1.5 * side)) for side in size), QImage.Format.Format_RGB888)
+    screen.fill("black")
+    screen.setDevicePixelRatio(1.5)
+    canvas.render(screen)
+    rows = np.frombuffer(screen.constBits(), np.uint8).reshape(screen.height(), screen.bytesPerLine())
+    colours = rows[:, : 3 * screen.width()].reshape(screen.height(), -1, 3)
+    assert (colours.max(axis=2) > 60).all()

@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Callable
 from functools import lru_cache
+from math import ceil
 from typing import Any, Protocol
 
 import numpy as np
@@ -81,7 +82,8 @@ class MemoryCanvas(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         ratio = self.devicePixelRatioF()
-        width, height = max(round(self.width() * ratio), 1), max(round(self.height() * ratio), 1)
+        # where the screen is scaled by a fraction the last row and column are begun pixels: unpainted they would be black
+        width, height = max(ceil(self.width() * ratio), 1), max(ceil(self.height() * ratio), 1)
         image = self._image
         if self._window is not None and (self._is_stale or image is None or image.size().toTuple() != (width, height)):
             begin = time.perf_counter()
