@@ -92,6 +92,7 @@ def test_a_session_of_a_solid_brings_back_how_it_is_looked_into(solid_window: Ma
     volume.choose(is_cut=True, normal=(0.6, 0.0, -0.8), place=0.3, is_flipped=True, is_exact=True, spread=0.25)
     volume.peel(0.4)
     qtbot.waitUntil(lambda: volume.look.threshold is not None)
+    volume.choose(threshold=1.25 * volume.look.threshold)  # found on an earlier map, and held since
     look, before = volume.look, plain(window.view_states.state(of_mesh=True))
     path = tmp_path / "solid.json"
     window.sessions.desk.save(str(path))
@@ -104,7 +105,7 @@ def test_a_session_of_a_solid_brings_back_how_it_is_looked_into(solid_window: Ma
     assert volume.look.normal == pytest.approx(look.normal) and volume.peeled == 0.4
     assert volume.look.threshold == pytest.approx(look.threshold)
     assert_alike(before["solid"], plain(window.view_states.state(of_mesh=True))["solid"])
-    for nonsense in ({"normal": [0, 0, 0]}, {"place": 2}, {"cut": 1}, {"spread": -1}, {"lid": True}):
+    for nonsense in ({"normal": [0, 0, 0]}, {"place": 2}, {"cut": 1}, {"spread": -1}, {"threshold": "all"}, {"lid": True}):
         with pytest.raises(WorkbenchError, match="solid"):
             views("views", {"solid": nonsense})
     volume.show_all()

@@ -202,6 +202,7 @@ SOLID: Mapping[str, schema.Check] = {
     "wires": schema.flag,
     "peel_by": schema.text,
     "peeled": _part,
+    "threshold": schema.number,
     "spread": lambda what, value: schema.number(what, value, 0.0, 10.0),
 }
 VIEWS: Mapping[str, schema.Check] = {

@@ -17,6 +17,7 @@ from workbench.app.simplex_brush import SimplexBrush
 from workbench.core.solid_look.drawn_faces import DrawnFaces, drawn_faces
 from workbench.core.solid_look.look import AXES, VolumeLook
 from workbench.core.solid_look.solid import Solid
+from workbench.session.schema import LARGEST_COORDINATE
 
 OWNER = "peel"
 """Name under which the quantity to peel by is watched."""
@@ -172,7 +173,8 @@ class VolumeView(QObject):
         look = self.look
         if not self.is_on or look.is_whole:
             return {}
-        return self.kept() | {
+        held = {} if look.threshold is None or abs(look.threshold) > LARGEST_COORDINATE else {"threshold": look.threshold}
+        return self.kept() | held | {
             "cut": look.is_cut,
             "normal": [float(part) for part in look.normal],
             "place": float(look.place),
@@ -197,3 +199,6 @@ class VolumeView(QObject):
             spread=seen.get("spread", 0.0),
         )
         self.peel(seen.get("peeled", 0.0))
+        if self.peeled > 0 and "threshold" in seen:  # what was held, though the share of another map that it was found on
+            self._waits_for_values = False
+            self.choose(threshold=seen["threshold"])
