@@ -19,6 +19,7 @@ from workbench.app.handling.anchor_tool import DRAG_INTERVAL
 from workbench.app.main_window import MainWindow
 from workbench.app.menus import fill_samples
 from workbench.app.views.mesh_view import MeshView
+from workbench.core.status import Status
 from workbench.engine.messages import Load, Pause, Reset, Run, SetAnchors, SetProblem, SetSolver, Step
 
 
@@ -374,3 +375,13 @@ def test_a_step_that_lasts_is_named_with_the_way_out(window: MainWindow, monkeyp
     qtbot.waitUntil(lambda: "Stop ends it" in window.status.sentence.text())
     window.document.pause()
     qtbot.waitUntil(lambda: "Stop ends it" not in window.status.sentence.text())
+
+
+def test_a_run_from_an_inverted_start_says_what_unfolds_it(window: MainWindow) -> None:
+    """Where it is seen: the status line shows a tip while the pointer is on Run."""
+    rested = window.document.snapshot
+    window.document._take_snapshot(replace(rested, phase="finished", status=Status.INVERTED_START))
+    assert not window.error_bar.isHidden()
+    assert "Symmetric Dirichlet, filtered barrier, which unfolds them" in window.error_bar.sentence.text()
+    window.document._take_snapshot(replace(rested, phase="running", status=Status.RUNNING))
+    assert window.error_bar.isHidden(), "it has been heeded"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import time
 import traceback
@@ -16,7 +17,8 @@ from workbench.app.document.first_start import why_not_own_start
 from workbench.app.status.meters import DragMeter, RateMeter
 from workbench.core.errors import WorkbenchError
 from workbench.core.samples import sample_label
-from workbench.engine.messages import Failure, Progress, Ready, Refused, Restarted
+from workbench.core.status import Status
+from workbench.engine.messages import Failure, Progress, Ready, Refused, Restarted, Snapshot
 
 if TYPE_CHECKING:
     from workbench.app.main_window import MainWindow
@@ -25,6 +27,9 @@ LONG_STEP = 2.0
 """Seconds without a map after which a solver at work is called slow, with the way out."""
 NUMBERS_INTERVAL = 150
 """Milliseconds between two sets of numbers in the status bar: faster ones cannot be read."""
+
+APART = 1e-6
+"""Part of the mesh's diameter by which an anchor is away from its place before the window speaks of it."""
 
 
 class Reporter(QObject):
@@ -144,8 +149,9 @@ class Reporter(QObject):
         vertices = f"{counted(mesh.vertex_count)} vertices"
         window.source.caption.setText(f"{simplices}, {vertices}")  # what is cut off first comes last
         window.source.caption.setToolTip("\n".join((f"{simplices}, {vertices}", *loaded.lines)))
-        refused_start = why_not_own_start(loaded, document.session)
-        window.status.say(refused_start or (loaded.lines[0] if loaded.lines else f"{name} is open."))
+        window.status.say(loaded.lines[0] if loaded.lines else f"{name} is open.")
+        if refused_start := why_not_own_start(loaded, document.session):
+            window.error_bar.show_message(refused_start, level=logging.INFO)  # the status bar tells of the map in a moment
         surface = window.source.view.surface
         window.actions_by_name["edges"].setChecked(surface is not None and surface.has_edges)
 
@@ -165,7 +171,8 @@ class Reporter(QObject):
         if self._last_iteration >= 0 and iteration > self._last_iteration:
             self.rate_meter.take(iteration - self._last_iteration)
         self._last_iteration = iteration
-        key = f"{snapshot.phase}/{snapshot.status.name}/{snapshot.limiting_simplex >= 0}/{self._document.wants_to_run}"
+        waits = self._anchors_wait(snapshot)
+        key = f"{snapshot.phase}/{snapshot.status.name}/{snapshot.limiting_simplex >= 0}/{self._document.wants_to_run}/{waits}"
         if key != self._said:
             self._said = key
             self._say_state()
@@ -177,6 +184,7 @@ class Reporter(QObject):
         if snapshot is None:
             return
         mesh = self._document.mesh
+        self._tell_what_unfolds(snapshot.phase == "finished" and snapshot.status is Status.INVERTED_START)
         if mesh is not None and snapshot.limiting_simplex >= 0 and snapshot.phase in ("running", "dragging"):
             which = f"{mesh.simplex_noun()} {snapshot.limiting_simplex}"
             self._window.status.say(f"An anchor lags: {which} would invert; the map follows as far as it can.")
@@ -188,10 +196,25 @@ class Reporter(QObject):
             self._window.status.say(snapshot.status.value)
         elif self._document.wants_to_run:
             self._window.status.say("The solver is starting.")
+        elif self._anchors_wait(snapshot):
+            self._window.status.say("The solver rests: Space runs it, and the map follows the anchors.")
         else:
             self._window.status.say(
                 "At rest. Space runs; a click sets an anchor, Alt+click those of a whole face; drag anchors in the target."
             )
+
+    def _tell_what_unfolds(self, is_stuck: bool) -> None:
+        """The status line has no room for what to do, and shows a tip while the pointer is on Run."""
+        bar, sentence = self._window.error_bar, in_window_words(Status.INVERTED_START.value)
+        if is_stuck:
+            bar.show_message(sentence)
+        elif not bar.isHidden() and bar.sentence.text() == sentence:
+            bar.dismiss()
+
+    def _anchors_wait(self, snapshot: Snapshot) -> bool:
+        """Whether anchors were moved away from a map that rests: dragging alone does not run the solver."""
+        mesh = self._document.mesh
+        return snapshot.phase == "idle" and mesh is not None and snapshot.row.anchor_error > APART * mesh.diameter
 
     def show_numbers(self) -> None:
         """Bring the numbers of the status bar up to date."""
@@ -263,6 +286,7 @@ def source_name(source: str) -> str:
 def in_window_words(sentence: str) -> str:
     """A sentence of the engine without the options of the command line: here a button or a key stands for them."""
     sentence = re.sub(r"[;,]\s*apply --fix [a-z,]+( \([a-z ]+\) or --fix [a-z,]+)?", "", sentence)
+    sentence = sentence.replace("symmetric-dirichlet-filtered", "Symmetric Dirichlet, filtered barrier")
     sentence = re.sub(r"raise --[a-z-]+ to go on", "run again to go on", sentence)
     return re.sub(rf"^{SAMPLE}([a-z0-9-]+)", lambda found: source_name(found.group(0)), sentence)
 
