@@ -173,8 +173,7 @@ class VolumeView(QObject):
         look = self.look
         if not self.is_on or look.is_whole:
             return {}
-        held = {} if look.threshold is None or abs(look.threshold) > LARGEST_COORDINATE else {"threshold": look.threshold}
-        return self.kept() | held | {
+        seen = self.kept() | {
             "cut": look.is_cut,
             "normal": [float(part) for part in look.normal],
             "place": float(look.place),
@@ -182,6 +181,9 @@ class VolumeView(QObject):
             "peeled": float(self.peeled),
             "spread": float(look.spread),
         }
+        if look.threshold is not None and abs(look.threshold) <= LARGEST_COORDINATE:
+            seen["threshold"] = look.threshold
+        return seen
 
     def see(self, seen: Mapping[str, Any]) -> None:
         """Look into the solid as checked values of `seen` say; what they do not name is as in a whole one."""
