@@ -87,6 +87,18 @@ def test_what_was_read_goes_with_the_next_step_or_esc_and_what_offers_a_fix_stay
     bar.dismiss()
 
 
+def test_why_a_map_does_not_begin_with_the_texture_of_its_file_stays_to_be_read(
+    window: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("workbench.app.status.reporter.why_not_own_start", lambda *_: "Those turn over.")
+    window.open("grid")
+    qtbot.waitUntil(lambda: window.document.positions is not None and not window.document.opening_source)
+    QTest.qWait(30)
+    assert window.error_bar.sentence.text() == "Those turn over." and not window.error_bar.isHidden()
+    assert "Those turn over." in texts(window)
+    window.error_bar.dismiss()
+
+
 def test_the_log_has_what_bar_status_loggers_engine_and_threads_told(window: MainWindow, qtbot: QtBot) -> None:
     window.noticing.notices.clear()
     window.status.say("A sentence of the status line.")

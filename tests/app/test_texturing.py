@@ -223,6 +223,7 @@ def test_a_surface_begins_with_the_map_of_its_file() -> None:
     assert begun(TextureCoordinates(folded, mesh.simplices)).initializer == "", "no solver goes on from that"
     told = Loaded(1, replace(mesh, texture=TextureCoordinates(folded, mesh.simplices)), "parameterize", (), NO_EDGES, "m.obj")
     assert "triangles over" in why_not_own_start(told, Session(source="m.obj"))
+    assert why_not_own_start(told, Session(source="m.obj", initializer="tutte")) == "", "somebody chose another one"
     told = Loaded(1, replace(mesh, texture=whole), "parameterize", (), NO_EDGES, "m.obj")
     assert why_not_own_start(told, Session(source="m.obj")) == ""
     assert begun(TextureCoordinates(flat * [1, -1], mesh.simplices)).initializer == "file", "face down throughout"

@@ -45,8 +45,8 @@ def with_own_start(loaded: Loaded, session: Session) -> Session:
 
 
 def why_not_own_start(loaded: Loaded, session: Session) -> str:
-    """A sentence where the file has a map, and the start is another one; else empty."""
-    turns = _turns(loaded, session)
+    """A sentence where the file has a map, and the start is another one that nobody chose; else empty."""
+    turns = None if session.initializer else _turns(loaded, session)
     if turns is None or min(turns) == 0:
         return ""
     return (
