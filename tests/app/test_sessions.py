@@ -376,3 +376,17 @@ def test_window_and_command_line_come_to_the_same_energy(make_window: WindowMake
         np.testing.assert_allclose(case["X"], document.positions, atol=1e-9 * document.mesh.diameter)
     record_again = (tmp_path / "out" / "report.json").read_text()
     assert '"same_energy": true' in record_again
+
+
+def test_an_energy_that_hangs_on_an_earlier_start_is_not_recorded(window: MainWindow) -> None:
+    """Whoever repeats the session finds the barrier where the last map has it, and would find another energy."""
+    rested = window.document.snapshot
+    recorded = []
+    for id in ("mips", "symmetric-dirichlet-filtered"):
+        window.document.choose(distortion=id)
+        told = replace(
+            rested, phase="finished", distortion=window.document.session.distortion, anchor_serial=window.document.anchor_serial
+        )
+        window.document._take_snapshot(told)
+        recorded.append(window.sessions.desk.record().energy)
+    assert recorded == [rested.row.energy, None]

@@ -95,6 +95,9 @@ class SessionDesk(QObject):
         is_settled = snapshot.phase in ("idle", "finished") and not document.is_held
         if is_told and not is_settled:
             is_told = bool(legs) and _agree(legs[-1].choices, session)
+        method = registry().distortions.get(session.distortion)
+        if method is not None and method.looks_at_start:  # where its barrier is, whoever repeats the session asks the map anew
+            is_told = False
         energy = snapshot.row.energy if is_told else None
         return SessionRecord(session, "", snapshot.positions, legs, energy, self.views())
 
