@@ -74,6 +74,8 @@ def look():
         print(f"{time.time() - begin:.2f} {used.ru_utime + used.ru_stime:.2f}", flush=True)
         view.close()
         application.quit()
+    else:
+        QTimer.singleShot(5, look)
 QTimer.singleShot(0, lambda: QTimer.singleShot(0, look))
 application.exec()
 """
