@@ -113,23 +113,18 @@ class Commands(QObject):
             window.actions_by_name[name].triggered.connect(lambda _=False, d=deed: d())
 
     def wait(self) -> None:
-        """Let threads end before the window does."""
+        """End what has more to do at the end of the window than to let a thread end."""
         self._window.preferring.end()
-        self.tips.wait()
         self.saver.wait()
         if self.signatures is not None:
             self.signatures.wait()
         self.refining.wait()
         self.filling.wait()
-        self.composing.wait()
         self.presets.wait()
-        self.exporting.wait()
         self.racing.close()
         self.judging.close()
         if self.dissection is not None:
             self.dissection.close()
-        if self._boundary_search is not None:
-            self._boundary_search.wait()
 
     def _go_through_history(self, deed: Callable[[], None]) -> None:
         """Undo or redo, or say what has to be over first."""

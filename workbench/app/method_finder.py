@@ -41,12 +41,6 @@ class MethodFinder(QObject):
             self._has_begun = True
             QTimer.singleShot(0, self, self._search.start)
 
-    def wait(self) -> None:
-        """Let the threads end before the window does."""
-        for work in (self._search, self._preparation):
-            if work is not None:
-                work.wait()
-
     def _take(self, registry: Any) -> None:
         self._preparation = Background(lambda: prepare_for_larger(registry), self)
         self._preparation.failed.connect(self.failed)

@@ -41,11 +41,6 @@ class AnchorFiles(QObject):
         files[0].triggered.connect(lambda _=False: self.ask_import())
         files[1].triggered.connect(lambda _=False: self.ask_export())
 
-    def wait(self) -> None:
-        """Let threads end before the window does."""
-        self._works.wait()
-        self.dock.works.wait()
-
     # ------------------------------------------------------------------------------------------ in
 
     def takes(self, path: str) -> bool:

@@ -116,10 +116,6 @@ class CarriedView(QObject):
         self._work.failed.connect(lambda error: end(self._fail, error))
         self._work.start()
 
-    def wait(self) -> None:
-        if self._work is not None:
-            self._work.wait()
-
     def _fail(self, error: Exception) -> None:
         document = self._document
         document.session = replace(document.session, carried=self.source)  # it is not asked for again

@@ -29,10 +29,6 @@ class Composing(QObject):
         self._is_drawing = self._is_stale = False
         self.dialog: FigureDialog | None = None
 
-    def wait(self) -> None:
-        """Let threads end before the window does."""
-        self._works.wait()
-
     def ask(self) -> None:
         """Open the dialog for the map on the screen."""
         if self.dialog is not None:

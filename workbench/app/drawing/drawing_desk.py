@@ -124,11 +124,6 @@ class DrawingDesk(QObject):
         self._search = None
         self._window.reporter.show_exception(error)
 
-    def wait(self) -> None:
-        """Let the thread end before the window does."""
-        if self._search is not None:
-            self._search.wait()
-
 
 def lines_of(mesh: Mesh) -> MeshLines:
     """The edges of a mesh that stand out."""

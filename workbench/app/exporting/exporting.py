@@ -40,10 +40,6 @@ class Exporting(QObject):
         self._window = window
         self._works = Backgrounds(self)
 
-    def wait(self) -> None:
-        """Let threads end before the window does."""
-        self._works.wait()
-
     def fill_menu(self, menu: QMenu) -> None:
         """Meshes and tables, then pictures; what there is nothing for yet is grey."""
         menu.clear()

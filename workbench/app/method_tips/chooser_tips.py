@@ -44,10 +44,6 @@ class ChooserTips(QObject):
         """None until the methods were found: looking for them takes a while, on a thread of its own."""
         return registry() if self.boxes[1].count() else None
 
-    def wait(self) -> None:
-        """Let the thread end before the window does."""
-        self._latest.wait()
-
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         if event.type() in (QEvent.Type.Enter, QEvent.Type.Show) and self._registry is not None:
             self.fill()
